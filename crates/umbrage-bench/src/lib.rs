@@ -1,0 +1,1 @@
+//! Criterion benches, kept apart so that no other crate pays for criterion.

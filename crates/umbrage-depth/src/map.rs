@@ -1,0 +1,32 @@
+use fearless_simd::{Simd, f32x16, prelude::*};
+use glam::IVec2;
+use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
+
+/// A kept map: one depth a texel, whatever the storage. Total: no look-up can fail.
+pub trait DepthMap: Sync {
+    /// The light's view; it says what the depths mean.
+    fn view(&self) -> &View;
+
+    /// The depth of a texel; +∞ where no surface is stored and everywhere outside the map.
+    fn depth(&self, texel: IVec2) -> f32;
+
+    /// The depths of the texels under sixteen positions (texel space). `within` encloses all of them that matter.
+    ///
+    /// Equals sixteen calls of [`DepthMap::depth`] bit for bit.
+    #[inline(always)]
+    fn look<S: Simd>(&self, simd: S, within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
+        let _ = within;
+        let (column, row) = (floor_texel(simd, x), floor_texel(simd, y));
+        f32x16::load_array(simd, std::array::from_fn(|i| self.depth(IVec2::new(column[i], row[i]))))
+    }
+
+    /// Encloses every depth of `rect`, texels outside the map included (+∞). Never decides a result, only saves work.
+    #[inline(always)]
+    fn range(&self, rect: TexelRect) -> DepthRange {
+        let _ = rect;
+        DepthRange::UNKNOWN
+    }
+
+    /// Bytes held for depths and their directory, as Reeves' Table 2 counts them.
+    fn bytes(&self) -> usize;
+}

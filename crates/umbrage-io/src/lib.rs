@@ -1,0 +1,1 @@
+//! Shadow maps as EXR, pictures as PNG, one safe way to write a file.

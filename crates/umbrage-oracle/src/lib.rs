@@ -1,0 +1,1 @@
+//! Truth by ray casting, and the measures of shadow faults.

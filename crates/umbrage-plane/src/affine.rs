@@ -1,0 +1,197 @@
+use crate::TexelRect;
+use glam::{DVec2, IVec2};
+
+/// What the numbers in a map mean (spec C-4).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Kind {
+    /// ζ: distance along the view's axis, in world units. The default.
+    #[default]
+    Axial,
+    /// Post-projective depth z_s: 0 at the near plane, 1 at the far plane (Williams 1978, Wang & Molnar 1994).
+    Screen,
+    /// Euclidean distance from the light, in world units (cube and latitude-longitude maps).
+    Radial,
+    /// Not a depth at all: the id of the nearest object.
+    Object,
+}
+
+/// A plane's key as an affine function of texel coordinates: `key(x, y) = c + dx·x + dy·y`.
+///
+/// Keys are −1/ζ (perspective) or ζ (orthographic), so they grow away from the light. Kept in f64 and rounded once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Affine {
+    /// Key at texel position (0, 0), the map's upper left corner.
+    pub c: f64,
+    /// Change of key per texel to the right.
+    pub dx: f64,
+    /// Change of key per texel downward.
+    pub dy: f64,
+}
+
+impl Affine {
+    /// The same key everywhere.
+    pub const fn constant(key: f64) -> Self {
+        Self { c: key, dx: 0.0, dy: 0.0 }
+    }
+
+    /// The key at a texel position, unrounded. The one formula by which every key in Umbrage is made.
+    #[inline(always)]
+    pub fn at(&self, texel: DVec2) -> f64 {
+        (self.c + self.dy * texel.y) + self.dx * texel.x
+    }
+}
+
+/// Turns keys into the depths that a map stores.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decode {
+    pub(crate) kind: Kind,
+    pub(crate) perspective: bool,
+    pub(crate) near: f64,
+    pub(crate) far: f64,
+    /// Ray tangents at texel (0, 0) and their change per texel, for radial depth. Orthographic views: unused.
+    pub(crate) tangent0: DVec2,
+    pub(crate) tangent_step: DVec2,
+}
+
+impl Decode {
+    /// The stored depth of a key at a texel position. A perspective plane behind its own horizon (key ≥ 0) is at +∞.
+    ///
+    /// `+∞` keys (nothing there) stay `+∞`.
+    #[inline(always)]
+    pub fn depth(&self, key: f32, texel: DVec2) -> f32 {
+        if key == f32::INFINITY {
+            return f32::INFINITY;
+        }
+        let key = f64::from(key);
+        let zeta = if self.perspective {
+            if key >= 0.0 {
+                return f32::INFINITY;
+            }
+            -1.0 / key
+        } else {
+            key
+        };
+        match self.kind {
+            Kind::Axial | Kind::Object => zeta as f32,
+            Kind::Screen => self.screen(zeta) as f32,
+            Kind::Radial => (zeta * self.slant(texel)) as f32,
+        }
+    }
+
+    /// z_s of an axial distance (spec C-2).
+    #[inline(always)]
+    pub(crate) fn screen(&self, zeta: f64) -> f64 {
+        if self.perspective {
+            self.far * (zeta - self.near) / (zeta * (self.far - self.near))
+        } else {
+            (zeta - self.near) / (self.far - self.near)
+        }
+    }
+
+    /// Euclidean over axial distance at a texel position; 1 in an orthographic view.
+    #[inline(always)]
+    pub(crate) fn slant(&self, texel: DVec2) -> f64 {
+        if self.perspective { (1.0 + (self.tangent0 + self.tangent_step * texel).length_squared()).sqrt() } else { 1.0 }
+    }
+}
+
+/// The smallest and largest depth that something may have; `min > max` never occurs, NaN neither.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DepthRange {
+    /// No depth is smaller.
+    pub min: f32,
+    /// No depth is larger; +∞ when a texel without a surface is among them.
+    pub max: f32,
+}
+
+impl DepthRange {
+    /// Says nothing: −∞ to +∞.
+    pub const UNKNOWN: Self = Self { min: f32::NEG_INFINITY, max: f32::INFINITY };
+    /// No surface anywhere: +∞ to +∞.
+    pub const NOTHING: Self = Self { min: f32::INFINITY, max: f32::INFINITY };
+
+    /// The range around both.
+    #[inline(always)]
+    pub fn union(self, other: Self) -> Self {
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+}
+
+/// A plane as a depth over texels: what a receiver's tangent plane is, and what a rasterised triangle is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DepthPlane {
+    /// The plane's key.
+    pub key: Affine,
+    /// How the key becomes a depth.
+    pub decode: Decode,
+}
+
+impl DepthPlane {
+    /// The plane's depth at a texel position: the bits that rasterising the same plane stores there.
+    #[inline(always)]
+    pub fn at(&self, texel: DVec2) -> f32 {
+        self.decode.depth(self.key.at(texel) as f32, texel)
+    }
+
+    /// Encloses the plane's depth over all positions inside the texels of `rect`. [`DepthRange::UNKNOWN`] for radial depth.
+    pub fn bounds(&self, rect: TexelRect) -> DepthRange {
+        if self.decode.kind == Kind::Radial || rect.is_empty() {
+            return DepthRange::UNKNOWN;
+        }
+        let (low, high) = (rect.min.as_dvec2(), rect.max.as_dvec2());
+        let corners = [low, DVec2::new(high.x, low.y), DVec2::new(low.x, high.y), high].map(|corner| self.at(corner));
+        // A corner's depth may be one rounding below its neighbourhood's: step outward so that the range encloses.
+        let (mut min, mut max) = (corners[0], corners[0]);
+        for depth in corners {
+            min = min.min(depth);
+            max = max.max(depth);
+        }
+        DepthRange { min: min.next_down().next_down(), max: max.next_up().next_up() }
+    }
+}
+
+/// Which side of a surface a view sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Facing {
+    /// The outside: counter-clockwise as seen from the view.
+    Front,
+    /// The inside.
+    Back,
+    /// Curved: front where the function is positive, evaluated at the texel's sample position.
+    Varies(Affine),
+}
+
+impl Facing {
+    /// True where the outside is seen.
+    #[inline(always)]
+    pub fn is_front(&self, texel: DVec2) -> bool {
+        match self {
+            Self::Front => true,
+            Self::Back => false,
+            Self::Varies(side) => side.at(texel) > 0.0,
+        }
+    }
+}
+
+/// One flat piece of surface as a view's texels see it: what the rasteriser hands to a depth rule.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Facet {
+    /// Key of the piece's plane.
+    pub plane: Affine,
+    /// Which side is seen.
+    pub facing: Facing,
+    /// Index of the triangle in the order it was given, 0-based.
+    pub triangle: u32,
+    /// Id of the object it belongs to.
+    pub object: u32,
+    /// True for open, two-sided surfaces; false for the boundary of a solid.
+    pub sheet: bool,
+}
+
+impl Facet {
+    /// The rounded key at the sample position of `texel`.
+    #[inline(always)]
+    pub fn key(&self, sampling: crate::Sampling, texel: IVec2) -> f32 {
+        self.plane.at(sampling.position(texel)) as f32
+    }
+}

@@ -1,0 +1,63 @@
+use glam::Vec2;
+
+/// The image of a shaded region in a map, in texel units.
+///
+/// A pixel's image is a quadrilateral; `centre` and `half` are its bounding box as Reeves' listing wants it
+/// (half-extents, not full sizes: spec E-R3).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Footprint {
+    /// Centre of the bounding box.
+    pub centre: Vec2,
+    /// Half of the bounding box's width and height, ≥ 0.
+    pub half: Vec2,
+    /// The region's corners in order around it. All equal for a point.
+    pub corners: [Vec2; 4],
+}
+
+impl Footprint {
+    /// A point without extent.
+    pub const fn point(at: Vec2) -> Self {
+        Self { centre: at, half: Vec2::ZERO, corners: [at; 4] }
+    }
+
+    /// An axis-parallel box.
+    pub fn boxed(centre: Vec2, half: Vec2) -> Self {
+        let across = Vec2::new(half.x, -half.y);
+        Self { centre, half, corners: [centre - half, centre + across, centre + half, centre - across] }
+    }
+
+    /// The bounding box of four corners.
+    pub fn around(corners: [Vec2; 4]) -> Self {
+        let (mut low, mut high) = (corners[0], corners[0]);
+        for corner in corners {
+            low = low.min(corner);
+            high = high.max(corner);
+        }
+        Self { centre: (low + high) * 0.5, half: (high - low) * 0.5, corners }
+    }
+
+    /// Enlarged about its centre: half-extents times `factor`, then at least `min_half`, then at most `max_half`
+    /// (Reeves' `ResFactor` and `MinSize`, in that order). Corners scale alike.
+    #[inline(always)]
+    pub fn scaled(&self, factor: f32, min_half: f32, max_half: Vec2) -> Self {
+        let half = (self.half * factor).max(Vec2::splat(min_half)).min(max_half.max(Vec2::ZERO));
+        let ratio = |new: f32, old: f32| if old > 0.0 { new / old } else { 0.0 };
+        let scale = Vec2::new(ratio(half.x, self.half.x), ratio(half.y, self.half.y));
+        if (self.half.x <= 0.0 && half.x > 0.0) || (self.half.y <= 0.0 && half.y > 0.0) {
+            return Self::boxed(self.centre, half);
+        }
+        Self {
+            centre: self.centre,
+            half,
+            corners: self.corners.map(|corner| self.centre + (corner - self.centre) * scale),
+        }
+    }
+
+    /// Twice-signed area of the quadrilateral divided by the area of its bounding box, as a share in 0..=1; 0 for a degenerate box.
+    pub fn quad_share(&self) -> f32 {
+        let [a, b, c, d] = self.corners;
+        let area = 0.5 * (c - a).perp_dot(d - b).abs();
+        let whole = 4.0 * self.half.x * self.half.y;
+        if whole > 0.0 { area / whole } else { 0.0 }
+    }
+}

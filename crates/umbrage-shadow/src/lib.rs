@@ -1,0 +1,1 @@
+//! The shadow algorithms: receiver and map to the fraction in shadow.

@@ -1,0 +1,1 @@
+//! Cross-crate laws live in `tests/`; this library holds what they share.

@@ -1,0 +1,2 @@
+//! The project's chores: `figures`, `ci`, `tidy`.
+fn main() {}
