@@ -1,7 +1,57 @@
 //! What a shadow map stores: depth rules and storages.
+//!
+//! A [`DepthRule`] says which of the surfaces over a texel is kept while a map is drawn; a [`DepthMap`] keeps the result and
+//! answers look-ups. All storages of one map give the same answers, bit for bit.
+//!
+//! | rule | stored depth | source |
+//! |---|---|---|
+//! | [`First`] | of the nearest surface | Williams 1978, Reeves 1987 |
+//! | [`Midpoint`] | halfway between the two nearest | Woo 1992 |
+//! | [`Second`] | of the second surface, by two buffers | Wang & Molnar 1994 |
+//! | [`BackFace`] | of the nearest surface that faces away | Wang & Molnar 1994 |
+//!
+//! | storage | keeps |
+//! |---|---|
+//! | [`Raw`] | every texel |
+//! | [`Bbox`] | the rectangle around all surfaces |
+//! | [`Tiled`] | 32×32 tiles that hold a surface, with their nearest and farthest depth |
+//!
+//! ```
+//! use glam::{DVec3, IVec2, UVec2};
+//! use umbrage_depth::{Bbox, DepthMap, Raw, Tiled};
+//! use umbrage_plane::View;
+//!
+//! let lamp = View::orthographic(DVec3::Y, DVec3::ZERO, DVec3::X, 1.0, 0.0, 9.0, UVec2::new(100, 60))?;
+//! let mut depths = vec![f32::INFINITY; 100 * 60];
+//! depths[100 * 41 + 7] = 2.5; // one surface, over texel (7, 41)
+//! let raw = Raw::new(lamp, depths)?;
+//! assert_eq!((raw.bytes(), Bbox::from(&raw).bytes(), Tiled::from(&raw).bytes()), (24_000, 4, 4_096));
+//! assert_eq!(Tiled::from(&raw).depth(IVec2::new(7, 41)), 2.5);
+//! assert_eq!(Bbox::from(&raw).depth(IVec2::new(-1, 41)), f32::INFINITY);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! This crate draws no triangles and computes no shadow.
 
+mod back_face;
+mod bbox;
+mod first;
 mod map;
+mod midpoint;
+mod quantise;
+mod raw;
+mod rows;
 mod rule;
+mod second;
+mod tiled;
 
+pub use back_face::BackFace;
+pub use bbox::Bbox;
+pub use first::First;
 pub use map::DepthMap;
+pub use midpoint::{Midpoint, MidpointCell};
+pub use quantise::{quantise, quantum};
+pub use raw::{MapError, Raw};
 pub use rule::DepthRule;
+pub use second::Second;
+pub use tiled::{TILE, Tile, Tiled};

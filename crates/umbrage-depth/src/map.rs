@@ -3,6 +3,8 @@ use glam::IVec2;
 use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
 
 /// A kept map: one depth a texel, whatever the storage. Total: no look-up can fail.
+///
+/// Depths are in the kind of the map's view (C-4), grow away from the light, and are never NaN or −∞ (C-5).
 pub trait DepthMap: Sync {
     /// The light's view; it says what the depths mean.
     fn view(&self) -> &View;
@@ -12,7 +14,7 @@ pub trait DepthMap: Sync {
 
     /// The depths of the texels under sixteen positions (texel space). `within` encloses all of them that matter.
     ///
-    /// Equals sixteen calls of [`DepthMap::depth`] bit for bit.
+    /// For lanes inside `within` this equals calls of [`DepthMap::depth`] bit for bit; the others, NaN among them, give some depth or +∞.
     #[inline(always)]
     fn look<S: Simd>(&self, simd: S, within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
         let _ = within;
@@ -27,6 +29,6 @@ pub trait DepthMap: Sync {
         DepthRange::UNKNOWN
     }
 
-    /// Bytes held for depths and their directory, as Reeves' Table 2 counts them.
+    /// Bytes held for depths alone, 4 each, as Reeves' Table 2 counts them: without directories and rectangles.
     fn bytes(&self) -> usize;
 }

@@ -13,7 +13,7 @@ pub trait DepthRule: Sync {
     /// How often all fragments are offered.
     const PASSES: u32 = 1;
 
-    /// Offers one fragment: its key at the texel's sample position and whether its outside is seen there.
+    /// Offers one fragment: its key at the texel's sample position and whether its outside is seen there. A key of NaN changes nothing.
     fn add(&self, pass: u32, cell: &mut Self::Cell, key: f32, front: bool, facet: &Facet);
 
     /// The depth to store, at the texel's sample position; +∞ where nothing is.

@@ -1,1 +1,37 @@
-//! Shadow maps as EXR, pictures as PNG, one safe way to write a file.
+//! Shadow maps as EXR, pictures as PNG and EXR, one safe way to write a file.
+//!
+//! * [`write_shadow_map`] and [`read_shadow_map`]: a depth map with its view, bit for bit (R87-4), in a file that other
+//!   tools read: tiled, channel `Z`, `worldToCamera`, `worldToNDC`, `near`, `far`, `textureformat = "Shadow"`.
+//! * [`write_png`], [`write_png_grey`], [`write_exr`]: pictures from linear light (X-7); [`read_png`] for comparing.
+//! * [`depth_view`] and [`replicate`]: a map as a grey picture, a zoom without invention.
+//! * [`write_atomic`]: the one path on which all of these write. A killed run leaves no torn file.
+//!
+//! Files are not trusted: sizes are checked against the file's length and a budget before memory is taken, and every fault
+//! is one line that names file, field and value. The library crate that opens files is this one alone.
+//!
+//! ```
+//! use glam::{UVec2, Vec3};
+//!
+//! let pixels = [Vec3::ZERO, Vec3::splat(0.5), Vec3::ONE, Vec3::new(1.0, 0.0, f32::NAN)];
+//! let bytes = umbrage_io::encode_png(UVec2::new(2, 2), &pixels)?;
+//! let codes = umbrage_io::decode_png(&bytes)?;
+//! assert_eq!(codes.rgb, [[0; 3], [188; 3], [255; 3], [255, 0, 0]]);
+//! # Ok::<(), umbrage_io::Fault>(())
+//! ```
+
+mod depth_view;
+mod error;
+mod file;
+mod picture;
+mod shadow_map;
+
+pub use depth_view::depth_view;
+pub use error::{Fault, IoError};
+pub use file::{write_atomic, write_bytes};
+pub use picture::{
+    Codes, decode_png, encode_exr, encode_png, encode_png_grey, linear_to_srgb8, read_png, replicate, write_exr,
+    write_png, write_png_grey,
+};
+pub use shadow_map::{
+    DEFAULT_BUDGET, decode_shadow_map, encode_shadow_map, read_shadow_map, read_shadow_map_within, write_shadow_map,
+};

@@ -1,1 +1,31 @@
 //! Truth by ray casting, and the measures of shadow faults.
+//!
+//! The oracle is one more [`Shadow`](umbrage_shadow::Shadow): [`RayCast`] answers exactly for a point, [`AreaRegion`]
+//! for a pixel's region, [`AreaLight`] for a light with extent. [`metrics`] are the measures M1..M9 of the figures,
+//! [`faults`] gives the named faults of a picture with a heat map of each, [`predict`] what theory expects.
+//!
+//! ```
+//! use glam::{DVec4, Vec3};
+//! use umbrage_oracle::{Body, Face, Geometry, RayCast};
+//! use umbrage_plane::SurfacePoint;
+//!
+//! // A card above a floor that is not modelled, the sun at the zenith.
+//! let card = Face { corners: [Vec3::new(-1., 1., -1.), Vec3::new(0., 1., 2.), Vec3::new(1., 1., -1.)], object: 0 };
+//! let geometry = Geometry::from_faces(vec![card], vec![Body::default()]);
+//! let truth = RayCast::everywhere(&geometry, DVec4::Y);
+//! assert_eq!(truth.at(&SurfacePoint::at(Vec3::ZERO, Vec3::Y)), 1.0);
+//! assert_eq!(truth.at(&SurfacePoint::at(Vec3::X * 3.0, Vec3::Y)), 0.0);
+//! ```
+//!
+//! Conventions are those of `umbrage-plane`: 1 is dark, rows from the top, texel and pixel centres at +½. Nothing here
+//! draws or opens a file.
+
+mod faults;
+mod geometry;
+pub mod metrics;
+pub mod predict;
+mod truth;
+
+pub use faults::{Contact, Evidence, Fault, Faults, faults, gap_on_surface, heat, penumbra_width};
+pub use geometry::{Body, Face, Geometry, Hit};
+pub use truth::{AreaLight, AreaRegion, RayCast, Truth};

@@ -59,18 +59,26 @@ impl Decode {
     /// `+∞` keys (nothing there) stay `+∞`.
     #[inline(always)]
     pub fn depth(&self, key: f32, texel: DVec2) -> f32 {
-        if key == f32::INFINITY {
-            return f32::INFINITY;
+        self.depth_of_zeta(self.zeta(key), texel)
+    }
+
+    /// The axial distance of a key, in world units; +∞ for keys of +∞ and behind a perspective plane's horizon (key ≥ 0).
+    #[inline(always)]
+    pub fn zeta(&self, key: f32) -> f64 {
+        if key == f32::INFINITY || (self.perspective && key >= 0.0) {
+            return f64::INFINITY;
         }
         let key = f64::from(key);
-        let zeta = if self.perspective {
-            if key >= 0.0 {
-                return f32::INFINITY;
-            }
-            -1.0 / key
-        } else {
-            key
-        };
+        // Zero has one sign, so that the order in which equal keys arrive cannot be seen in a map's bits.
+        if self.perspective { -1.0 / key } else { key + 0.0 }
+    }
+
+    /// The stored depth of an axial distance at a texel position, rounded once; +∞ stays +∞.
+    #[inline(always)]
+    pub fn depth_of_zeta(&self, zeta: f64, texel: DVec2) -> f32 {
+        if zeta == f64::INFINITY {
+            return f32::INFINITY;
+        }
         match self.kind {
             Kind::Axial | Kind::Object => zeta as f32,
             Kind::Screen => self.screen(zeta) as f32,

@@ -53,6 +53,7 @@ pub enum ViewError {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     world_to_eye: DMat4,
+    eye_to_world: DMat4,
     projection: Projection,
     near: f64,
     far: f64,
@@ -94,6 +95,7 @@ impl View {
         }
         Ok(Self {
             world_to_eye,
+            eye_to_world: world_to_eye.inverse(),
             projection,
             near,
             far,
@@ -228,8 +230,7 @@ impl View {
 
     /// The eye's place in the world (perspective), as a homogeneous point; a direction toward the light with w = 0 (orthographic).
     pub fn light(&self) -> DVec4 {
-        let eye_to_world = self.world_to_eye.inverse();
-        if self.is_perspective() { eye_to_world.w_axis } else { eye_to_world.z_axis.normalize() }
+        if self.is_perspective() { self.eye_to_world.w_axis } else { self.eye_to_world.z_axis.normalize() }
     }
 
     /// Unit vector from a world point toward the eye.
@@ -272,6 +273,17 @@ impl View {
             Projection::Orthographic { half } => eye.truncate() / half,
         };
         self.screen_to_texel(screen)
+    }
+
+    /// The world point that a texel position shows at a key ([`View::key`]).
+    #[inline(always)]
+    pub fn world_at(&self, texel: DVec2, key: f64) -> DVec3 {
+        let screen = DVec2::new(2.0, -2.0) * texel / self.size.as_dvec2() + DVec2::new(-1.0, 1.0);
+        let eye = match self.projection {
+            Projection::Perspective { k } => (screen / k).extend(-1.0) * (-1.0 / key),
+            Projection::Orthographic { half } => (screen * half).extend(-key),
+        };
+        self.eye_to_world.transform_point3(eye)
     }
 
     /// The key of an axial distance: −1/ζ in perspective, ζ in an orthographic view.

@@ -1,6 +1,48 @@
 //! Triangles to exact coverage, tile by tile.
-use glam::{UVec2, Vec3};
-use umbrage_plane::{Facet, TexelRect, View};
+//!
+//! [`Bins`] takes the triangles of a scene as one view sees them, cuts off what lies behind the view, snaps the corners to
+//! 1/256 texel and sorts the triangles into tiles of [`TILE`]² texels. [`Bins::tile`] then tells, for each triangle that
+//! reaches a tile, exactly which texels' samples it covers, as often as it is asked and from any thread.
+//!
+//! ```
+//! use glam::{DVec3, UVec2, Vec3};
+//! use umbrage_plane::{TexelRect, View};
+//! use umbrage_raster::{Bins, Cull, Triangle};
+//!
+//! // Looking along −z at the square −16..16: one world unit is one texel.
+//! let view = View::orthographic(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 16.0, 1.0, 9.0, UVec2::splat(32)).unwrap();
+//! let corners = [(0.0, 0.0), (3.0, 0.0), (0.0, 3.0)].map(|(x, y)| Vec3::new(x, y, -5.0));
+//! let triangle = Triangle { corners, object: 7, sheet: false };
+//! let bins = Bins::new(&view, TexelRect::of_size(view.size()), Cull::None, [triangle]);
+//! bins.tile(UVec2::ZERO, |facet, coverage| {
+//!     assert_eq!((facet.triangle, facet.object), (0, 7));
+//!     // Rows of 0, 1 and 2 texels: the samples on the hypotenuse belong to its other side.
+//!     assert_eq!(coverage.rows[13..16], [0, 1 << 16, 3 << 16]);
+//!     assert_eq!((coverage.first, coverage.end), (14, 16));
+//! });
+//! ```
+//!
+//! What holds (spec X-2):
+//!
+//! * A sample on the edge between two triangles belongs to exactly one of them, a sample on a corner to exactly one of the
+//!   triangles around it: the top-left rule, in integers, without a rounding. Coverage does not depend on the order of the corners.
+//! * At every sample, a closed mesh that is not cut has as many front as back facets. [`Facet::facing`](umbrage_plane::Facet) is the
+//!   orientation of the *snapped* triangle for that reason: a sliver thinner than the snapping grid may be turned over by the
+//!   snapping, its neighbours then overlap it, and only the snapped orientation cancels one of them.
+//! * What a facet covers is a function of the view and the triangle; neither tiles, windows nor the order of calls change it.
+//!
+//! Conventions are those of [`umbrage_plane`]. This crate knows no depth test and no shadow; it does not clamp depths to the near plane
+//! either (C-10): a facet's key nearer than `view.key(view.near())` is for the depth pass to clamp.
+
+mod bins;
+mod clip;
+mod coverage;
+mod setup;
+
+pub use bins::Bins;
+pub use coverage::Coverage;
+
+use glam::Vec3;
 
 /// Side of a tile, in texels.
 pub const TILE: u32 = 32;
@@ -8,7 +50,7 @@ pub const TILE: u32 = 32;
 /// A triangle in world space, counter-clockwise as seen from its outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
-    /// World-space corners.
+    /// World-space corners. NaN, infinite or ≥ 1e30 in size: the triangle is counted and skipped.
     pub corners: [Vec3; 3],
     /// Id of the object it belongs to.
     pub object: u32,
@@ -28,18 +70,10 @@ pub enum Cull {
     Back,
 }
 
-/// The texels of one tile that a facet covers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Coverage {
-    /// Bit x of row y: texel (x, y) of the tile is covered.
-    pub rows: [u32; 32],
-    /// First row with a bit set.
-    pub first: u8,
-    /// One past the last row with a bit set.
-    pub end: u8,
-}
-
 /// What became of the triangles that were given.
+///
+/// Each is kept or counted in exactly one of `not_finite`, `zero_area`, `culled`, `outside` and `missed`;
+/// `clipped` and `before_near` tell of those that were kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Stats {
     /// Triangles given.
@@ -52,30 +86,17 @@ pub struct Stats {
     pub culled: u64,
     /// Wholly outside the window or behind the view.
     pub outside: u64,
+    /// So small that their bounding box lies between the texels' samples.
+    pub missed: u64,
     /// Cut at the near limit or at the guard band.
     pub clipped: u64,
     /// Nearer than the near plane somewhere; their depths are clamped to it.
     pub before_near: u64,
 }
 
-/// Triangles sorted into the tiles of a view.
-pub struct Bins {}
-
-impl Bins {
-    /// Sorts.
-    pub fn new(_view: &View, _window: TexelRect, _cull: Cull, _triangles: impl IntoIterator<Item = Triangle>) -> Self {
-        todo!()
-    }
-    /// Number of tiles across and down.
-    pub fn tiles(&self) -> UVec2 {
-        todo!()
-    }
-    /// Calls `sink` for each facet that covers a texel of the tile.
-    pub fn tile(&self, _tile: UVec2, _sink: impl FnMut(&Facet, &Coverage)) {
-        todo!()
-    }
-    /// Counts.
-    pub fn stats(&self) -> Stats {
-        todo!()
+impl Stats {
+    /// Triangles that were sorted into tiles.
+    pub fn kept(&self) -> u64 {
+        self.given - self.not_finite - self.zero_area - self.culled - self.outside - self.missed
     }
 }

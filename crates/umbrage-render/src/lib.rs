@@ -1,1 +1,34 @@
-//! Pass 1 (depth maps), pass 2 (images) and shading.
+//! Pass 1 (depth maps), pass 2 (images) and shading: the one library crate that joins rasteriser and shadow.
+//!
+//! The reading path: a [`Soup`] is a scene's triangles for one view; [`bake`] makes a light's depth map of it;
+//! [`bind`] puts a filter over the map in the storage that is asked for; [`picture`] draws the camera's image with it.
+//!
+//! ```
+//! use umbrage_depth::First;
+//! use umbrage_raster::Cull;
+//! use umbrage_render::{Frame, Soup, Storage, bake, bind, picture};
+//! use umbrage_scene::gallery;
+//! use umbrage_shadow::presets;
+//!
+//! let mut scene = gallery::sphere_plane();
+//! scene.camera = scene.camera.with_size(glam::UVec2::splat(48))?;
+//! let light = scene.lights[0].view.with_size(glam::UVec2::splat(64))?;
+//! let baked = bake(&light, Soup::casters(&scene, &light).triangles(), &First, Cull::None);
+//! let shadow = bind(presets::reeves87(), &baked.map, Storage::Tiled);
+//! let image = picture(&scene, &[&*shadow], &Frame::default());
+//! assert!(image.shadow[0].iter().any(|&share| share > 0.9));
+//! # Ok::<(), umbrage_plane::ViewError>(())
+//! ```
+
+mod camera;
+mod pass1;
+mod picture;
+pub mod post;
+mod recipe;
+mod shade;
+mod soup;
+
+pub use pass1::{Baked, bake};
+pub use picture::{Frame, NOTHING, Picture, picture};
+pub use recipe::{Recipe, RecipeError, Storage, bind};
+pub use soup::Soup;

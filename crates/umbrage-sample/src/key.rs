@@ -54,11 +54,11 @@ impl Key {
         let lane: u32x16<S> = u32x16::load_array(simd, std::array::from_fn(|i| i as u32));
         let index = (lane + first) * DIMENSIONS + dim;
         let mut bits = index * GOLDEN + self.state;
-        bits = bits ^ (bits >> 16);
-        bits = bits * 0x7FEB_352D;
-        bits = bits ^ (bits >> 15);
-        bits = bits * 0x846C_A68B;
-        bits = bits ^ (bits >> 16);
+        bits ^= bits >> 16;
+        bits *= 0x7FEB_352D;
+        bits ^= bits >> 15;
+        bits *= 0x846C_A68B;
+        bits ^= bits >> 16;
         (bits >> 8).to_float::<f32x16<S>>() * (1.0 / 16_777_216.0)
     }
 

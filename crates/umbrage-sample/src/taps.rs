@@ -1,5 +1,6 @@
 use crate::Key;
-use fearless_simd::{Simd, f32x16};
+use fearless_simd::{Level, Simd, dispatch, f32x16};
+use glam::Vec2;
 use umbrage_plane::Footprint;
 
 /// Up to sixteen sample positions of one region.
@@ -10,22 +11,57 @@ pub struct Taps<S: Simd> {
     pub y: f32x16<S>,
     /// One uniform number in \[0, 1) a tap, for what the receiver's depth draws (a bias).
     pub u: f32x16<S>,
-    /// Bit i set: tap i takes part. The others hold positions that may be read but do not count.
+    /// Bit i set: tap i takes part; bits 16 and up are 0. The others hold positions that may be read but do not count.
     pub mask: u32,
     /// Index of the first tap within its region.
     pub first: u32,
-    /// Weight of each tap; only read of patterns with [`Pattern::WEIGHTED`].
+    /// Weight of each tap, ≥ 0; only read of patterns with [`Pattern::WEIGHTED`], 1 of all others.
     pub weight: f32x16<S>,
 }
 
-/// Where to look within a region of a map (Reeves 1987, §2, Fig. 3).
+/// Where to look within a region of a map (Reeves 1987, §2, Fig. 3; R87-11).
 ///
-/// Every tap lies inside `[centre − half, centre + half]` of the region. Key dimensions: 0 the jitter in x, 1 the
-/// jitter in y, 2 the number `u`; a pattern that redraws uses 3..8.
+/// Every tap that takes part lies inside the closed box `[centre − half, centre + half]` of the region, as computed
+/// in f32. A tap of index k draws its numbers from the key's sample k (C-9): dimension 0 the position in x, 1 the position in y,
+/// 2 the number `u`; 3 to 7 are free for patterns that need more. So each tap has its own fixed numbers, in
+/// whatever order taps are worked on.
+///
+/// A region whose centre or extent is not finite gets taps at unspecified positions; nothing panics.
 pub trait Pattern: Sync {
     /// True when taps carry weights that are not all equal.
     const WEIGHTED: bool = false;
 
     /// Calls `each` with every batch of taps of `region`, in a fixed order; at least one tap in all.
+    ///
+    /// A batch may come with an empty mask, where all of its positions were rejected. Implementations mention `each` once:
+    /// a closure that is called from two places is not inlined, and then not compiled for the machine's own instructions.
     fn taps<S: Simd>(&self, simd: S, region: &Footprint, key: Key, each: impl FnMut(&Taps<S>));
+}
+
+/// One tap, for callers that work one at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tap {
+    /// Position, in texel space.
+    pub at: Vec2,
+    /// Uniform in \[0, 1), as [`Taps::u`].
+    pub u: f32,
+    /// Weight, ≥ 0; 1 for patterns without weights.
+    pub weight: f32,
+}
+
+/// Calls `each` with every tap of a region, in order; at least once. The base of filters over things that are no depths (R87-26).
+///
+/// The taps are those of [`Pattern::taps`], bit for bit, whatever instructions the machine has.
+pub fn each_tap(pattern: &impl Pattern, region: &Footprint, key: Key, each: impl FnMut(&Tap)) {
+    dispatch!(Level::new(), simd => one_by_one(simd, pattern, region, key, each));
+}
+
+#[inline(always)]
+fn one_by_one<S: Simd, P: Pattern>(simd: S, pattern: &P, region: &Footprint, key: Key, mut each: impl FnMut(&Tap)) {
+    pattern.taps(simd, region, key, |taps| {
+        for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
+            let weight = if P::WEIGHTED { taps.weight[i] } else { 1.0 };
+            each(&Tap { at: Vec2::new(taps.x[i], taps.y[i]), u: taps.u[i], weight });
+        }
+    });
 }

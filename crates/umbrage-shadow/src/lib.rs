@@ -1,1 +1,45 @@
-//! The shadow algorithms: receiver and map to the fraction in shadow.
+//! The shadow algorithms: a receiver and a map give the fraction of the receiver that is in shadow.
+//!
+//! An algorithm is three choices: **which surface is stored** (a depth rule, `umbrage-depth`), **where one looks**
+//! (a [`Pattern`](umbrage_sample::Pattern)) and **which depth is compared there** (a [`ReceiverDepth`]). A [`Filter`]
+//! combines the answers, and [`ShadowMap`] binds a filter to a map so that a renderer sees one thing: [`Shadow`].
+//!
+//! ```
+//! use glam::{DVec3, UVec2, Vec3};
+//! use umbrage_depth::Raw;
+//! use umbrage_plane::{SurfacePoint, View};
+//! use umbrage_sample::Key;
+//! use umbrage_shadow::{Shadow, ShadowMap, presets};
+//!
+//! // A lamp above the floor, and what it sees: a card at distance 5 on the left half, nothing on the right.
+//! let size = UVec2::splat(64);
+//! let lamp = View::perspective(DVec3::Y * 10.0, DVec3::ZERO, DVec3::NEG_Z, 1.0, 1.0, 100.0, size)?;
+//! let depths = (0..64 * 64).map(|i| if i % 64 < 32 { 5.0 } else { f32::INFINITY }).collect();
+//! let shadow = ShadowMap { filter: presets::reeves87(), map: Raw::new(lamp, depths)? };
+//!
+//! let key = Key::new(0, 0, 0);
+//! assert_eq!(shadow.fraction(&SurfacePoint::at(Vec3::new(-2.0, 0.0, 0.0), Vec3::Y), key), 1.0);
+//! assert_eq!(shadow.fraction(&SurfacePoint::at(Vec3::new(2.0, 0.0, 0.0), Vec3::Y), key), 0.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Conventions: 1 is dark (`shadow`), equality is lit, a sample outside the map answers by the view's
+//! [`Rules`](umbrage_plane::Rules). This crate draws nothing and opens no file.
+
+pub mod as_printed;
+mod depth;
+mod filter;
+mod ordinary;
+mod pcf;
+pub mod presets;
+mod probe;
+mod shadow;
+pub mod williams;
+
+pub use depth::{Biased, OnPlane, ReceiverDepth, Spread};
+pub use filter::{Filter, filter};
+pub use ordinary::Ordinary;
+pub use pcf::Pcf;
+pub use probe::{Counters, Probe};
+pub use shadow::{Shadow, ShadowMap, Unshadowed};
+pub use williams::Williams;

@@ -1,0 +1,29 @@
+use crate::DepthRule;
+use glam::DVec2;
+use umbrage_plane::{Decode, Facet};
+
+/// The nearest surface that faces away from the light (Wang & Molnar 1994; WM94-1 ii and iii): front-face culling for
+/// polygons, the test of N·L < 0 for curved surfaces, which a facet's [`Facing`](umbrage_plane::Facing) answers texel by texel.
+///
+/// Two-sided sheets are never culled (WM94-3). An open surface passed off as a solid stores nothing where its front is seen (V53).
+/// Equals [`Second`](crate::Second) for solids that do not reach into each other; where they do, it skips hidden fronts (WM94-2, V51).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BackFace;
+
+impl DepthRule for BackFace {
+    /// The smallest key among those that take part.
+    type Cell = f32;
+    const EMPTY: f32 = f32::INFINITY;
+
+    #[inline(always)]
+    fn add(&self, _pass: u32, cell: &mut f32, key: f32, front: bool, facet: &Facet) {
+        if key < *cell && (!front || facet.sheet) {
+            *cell = key;
+        }
+    }
+
+    #[inline(always)]
+    fn resolve(&self, cell: f32, decode: &Decode, at: DVec2) -> f32 {
+        decode.depth(cell, at)
+    }
+}

@@ -1,0 +1,25 @@
+use crate::DepthRule;
+use glam::DVec2;
+use umbrage_plane::{Decode, Facet};
+
+/// The nearest surface (Williams 1978, W78-1; Reeves 1987, §3.1).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct First;
+
+impl DepthRule for First {
+    /// The smallest key.
+    type Cell = f32;
+    const EMPTY: f32 = f32::INFINITY;
+
+    #[inline(always)]
+    fn add(&self, _pass: u32, cell: &mut f32, key: f32, _front: bool, _facet: &Facet) {
+        if key < *cell {
+            *cell = key;
+        }
+    }
+
+    #[inline(always)]
+    fn resolve(&self, cell: f32, decode: &Decode, at: DVec2) -> f32 {
+        decode.depth(cell, at)
+    }
+}

@@ -1,0 +1,118 @@
+use crate::{Bbox, DepthMap, Tiled, rows};
+use fearless_simd::{Simd, f32x16};
+use glam::IVec2;
+use umbrage_plane::{TexelRect, View};
+
+/// Why depths are no map.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MapError {
+    /// Not one depth a texel.
+    #[error("{found} depths given for a map of {width} x {height} texels")]
+    Length {
+        /// Columns of the view.
+        width: u32,
+        /// Rows of the view.
+        height: u32,
+        /// Number of depths given.
+        found: usize,
+    },
+    /// NaN or −∞, which are no depths (C-5).
+    #[error("texel ({}, {}) holds {value}, which is not a depth", .texel.x, .texel.y)]
+    NotADepth {
+        /// The first such texel, by rows from the top.
+        texel: IVec2,
+        /// What it holds.
+        value: f32,
+    },
+}
+
+/// Every texel of a map: 4 bytes each, row by row from the top (R87-4, V26).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Raw {
+    view: View,
+    depths: Vec<f32>,
+}
+
+impl Raw {
+    /// One depth a texel of `view`, row by row, row 0 on top. Values of 1e30 or more, +∞ included, mean *no surface* and become +∞.
+    ///
+    /// # Errors
+    /// When the number of depths is not width times height, or one of them is NaN or −∞.
+    pub fn new(view: View, mut depths: Vec<f32>) -> Result<Self, MapError> {
+        let size = view.size();
+        if depths.len() != size.x as usize * size.y as usize {
+            return Err(MapError::Length { width: size.x, height: size.y, found: depths.len() });
+        }
+        if let Some(index) = depths.iter().position(|depth| depth.is_nan() || *depth == f32::NEG_INFINITY) {
+            let texel = IVec2::new(index as i32 % size.x as i32, index as i32 / size.x as i32);
+            return Err(MapError::NotADepth { texel, value: depths[index] });
+        }
+        for depth in &mut depths {
+            *depth = rows::kept(*depth);
+        }
+        Ok(Self { view, depths })
+    }
+
+    /// Every texel of another map.
+    pub fn copy_of(map: &impl DepthMap) -> Self {
+        Self { view: *map.view(), depths: rows::copy(map, TexelRect::of_size(map.view().size())) }
+    }
+
+    /// The depths, row by row from the top; +∞ where there is no surface.
+    pub fn depths(&self) -> &[f32] {
+        &self.depths
+    }
+
+    /// The map with every depth, +∞ included, replaced by a function of its texel and itself.
+    ///
+    /// # Errors
+    /// When the function returns NaN or −∞.
+    pub fn map_depths(&self, f: impl Fn(IVec2, f32) -> f32) -> Result<Self, MapError> {
+        let replaced = self.replaced(f);
+        Self::new(replaced.view, replaced.depths)
+    }
+
+    /// [`Raw::map_depths`] with a function that returns depths only.
+    pub(crate) fn replaced(&self, f: impl Fn(IVec2, f32) -> f32) -> Self {
+        let texels = TexelRect::of_size(self.view.size()).texels();
+        Self { view: self.view, depths: texels.zip(&self.depths).map(|(texel, &depth)| f(texel, depth)).collect() }
+    }
+
+    /// The smallest rectangle around all texels that hold a surface; empty when none does (R87-19).
+    pub fn finite(&self) -> TexelRect {
+        rows::finite(self, TexelRect::of_size(self.view.size()))
+    }
+}
+
+impl DepthMap for Raw {
+    fn view(&self) -> &View {
+        &self.view
+    }
+
+    #[inline(always)]
+    fn depth(&self, texel: IVec2) -> f32 {
+        rows::depth(&self.depths, TexelRect::of_size(self.view.size()), texel)
+    }
+
+    #[inline(always)]
+    fn look<S: Simd>(&self, simd: S, _within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
+        rows::look(simd, &self.depths, TexelRect::of_size(self.view.size()), x, y)
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(self.depths.as_slice())
+    }
+}
+
+impl From<&Bbox> for Raw {
+    fn from(map: &Bbox) -> Self {
+        Self::copy_of(map)
+    }
+}
+
+impl From<&Tiled> for Raw {
+    fn from(map: &Tiled) -> Self {
+        Self::copy_of(map)
+    }
+}

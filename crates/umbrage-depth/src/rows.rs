@@ -1,0 +1,48 @@
+use crate::DepthMap;
+use fearless_simd::{Simd, f32x16, prelude::*, u32x16};
+use glam::IVec2;
+use umbrage_plane::{TexelRect, floor_texel};
+
+/// Stored values from here on mean that no surface was seen (C-5).
+const NO_SURFACE: f32 = 1e30;
+
+/// The depth that a map keeps for `depth`: +∞ for no surface. NaN, which constructors reject, is no surface here.
+#[inline(always)]
+pub(crate) fn kept(depth: f32) -> f32 {
+    if depth < NO_SURFACE { depth } else { f32::INFINITY }
+}
+
+/// [`DepthMap::depth`] of depths that are kept row by row for `rect` alone.
+#[inline(always)]
+pub(crate) fn depth(depths: &[f32], rect: TexelRect, texel: IVec2) -> f32 {
+    if !rect.contains(texel) {
+        return f32::INFINITY;
+    }
+    let at = (texel - rect.min).as_uvec2();
+    depths[at.y as usize * rect.size().x as usize + at.x as usize]
+}
+
+/// [`DepthMap::look`] of depths that are kept row by row for `rect` alone.
+#[inline(always)]
+pub(crate) fn look<S: Simd>(simd: S, depths: &[f32], rect: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
+    let size = rect.size();
+    // As unsigned numbers, positions before the rectangle are past its end.
+    let column: u32x16<S> = (floor_texel(simd, x) - rect.min.x).bitcast();
+    let row: u32x16<S> = (floor_texel(simd, y) - rect.min.y).bitcast();
+    let inside = column.simd_lt(u32x16::splat(simd, size.x)) & row.simd_lt(u32x16::splat(simd, size.y));
+    let index = inside.select(row * size.x + column, u32x16::splat(simd, u32::MAX));
+    f32x16::load_array(simd, std::array::from_fn(|i| depths.get(index[i] as usize).copied().unwrap_or(f32::INFINITY)))
+}
+
+/// The depths of `rect`, row by row.
+pub(crate) fn copy(map: &impl DepthMap, rect: TexelRect) -> Vec<f32> {
+    rect.texels().map(|texel| map.depth(texel)).collect()
+}
+
+/// The smallest rectangle around all texels of `within` that hold a surface.
+pub(crate) fn finite(map: &impl DepthMap, within: TexelRect) -> TexelRect {
+    within
+        .texels()
+        .filter(|&texel| map.depth(texel) < f32::INFINITY)
+        .fold(TexelRect::EMPTY, |found, texel| found.union(TexelRect::new(texel, texel + IVec2::ONE)))
+}

@@ -1,0 +1,192 @@
+use crate::{Bbox, DepthMap, Raw, rows};
+use fearless_simd::{Simd, f32x16, prelude::*, u32x16};
+use glam::{IVec2, UVec2};
+use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
+
+/// Columns and rows of a tile.
+pub const TILE: u32 = 32;
+/// Texels of a tile.
+const AREA: usize = (TILE * TILE) as usize;
+/// log₂ of [`TILE`].
+const SHIFT: u32 = TILE.trailing_zeros();
+/// More tiles than this are not asked for their range.
+const MOST_ASKED: u32 = 64;
+/// What the first range is united with; never leaves this module.
+const NONE_YET: DepthRange = DepthRange { min: f32::INFINITY, max: f32::NEG_INFINITY };
+
+/// A square of a map that holds at least one surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tile {
+    depths: Box<[f32; AREA]>,
+    range: DepthRange,
+}
+
+impl Tile {
+    /// From the depths of a tile, row by row from the top, of which the first `valid.x` columns and `valid.y` rows belong to the map
+    /// (less than [`TILE`] only at its right and lower edge; more counts as [`TILE`]). `None` when no surface is among them.
+    ///
+    /// Values of 1e30 or more and NaN become +∞, like all texels beyond `valid`, which never count.
+    pub fn new(mut depths: Box<[f32; AREA]>, valid: UVec2) -> Option<Self> {
+        let valid = valid.min(UVec2::splat(TILE)).as_usizevec2();
+        let mut range = NONE_YET;
+        for (row, line) in depths.chunks_exact_mut(TILE as usize).enumerate() {
+            let (inside, beyond) = line.split_at_mut(if row < valid.y { valid.x } else { 0 });
+            for depth in inside {
+                *depth = rows::kept(*depth);
+                range = range.union(DepthRange { min: *depth, max: *depth });
+            }
+            beyond.fill(f32::INFINITY);
+        }
+        (range.min < f32::INFINITY).then_some(Self { depths, range })
+    }
+
+    /// The depths, row by row from the top; +∞ where there is no surface or no map.
+    pub fn depths(&self) -> &[f32; AREA] {
+        &self.depths
+    }
+
+    /// The smallest and largest depth of the texels that belong to the map; the largest is +∞ when one of them has no surface
+    /// (R87-22, T-4).
+    pub fn range(&self) -> DepthRange {
+        self.range
+    }
+}
+
+/// Tiles of 32×32 texels, those without a surface left out (Reeves 1987, §3.3; R87-21): the native form of a map.
+///
+/// Every tile knows its nearest and farthest depth, so that [`DepthMap::range`] can settle regions without a look-up (R87-22).
+/// Small compact surfaces take more room than in a [`Bbox`], scattered ones less (D-18).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tiled {
+    view: View,
+    /// Columns and rows of tiles.
+    grid: UVec2,
+    tiles: Vec<Option<Tile>>,
+}
+
+impl Tiled {
+    /// From all tiles of a map of `view`, row by row from the top; `None` for those without a surface.
+    ///
+    /// # Panics
+    /// When there is not one entry for each tile: ⌈width/32⌉·⌈height/32⌉.
+    pub fn from_tiles(view: View, tiles: Vec<Option<Tile>>) -> Self {
+        let grid = (view.size() + (TILE - 1)) / TILE;
+        assert_eq!(tiles.len(), grid.element_product() as usize, "tiles of a map of {} texels", view.size());
+        Self { view, grid, tiles }
+    }
+
+    /// The tiles of another map.
+    pub fn copy_of(map: &impl DepthMap) -> Self {
+        let size = map.view().size();
+        let grid = (size + (TILE - 1)) / TILE;
+        let tile = |index: u32| {
+            let origin = UVec2::new(index % grid.x, index / grid.x) * TILE;
+            let texel = |i: usize| (origin + UVec2::new(i as u32 % TILE, i as u32 / TILE)).as_ivec2();
+            Tile::new(Box::new(std::array::from_fn(|i| map.depth(texel(i)))), size - origin)
+        };
+        Self { view: *map.view(), grid, tiles: (0..grid.element_product()).map(tile).collect() }
+    }
+
+    /// Columns and rows of tiles.
+    pub fn grid(&self) -> UVec2 {
+        self.grid
+    }
+
+    /// The tile at a column and row of tiles; `None` where no surface is stored and outside the map.
+    #[inline(always)]
+    pub fn tile(&self, at: UVec2) -> Option<&Tile> {
+        if at.x >= self.grid.x || at.y >= self.grid.y {
+            return None;
+        }
+        self.tiles[(at.y * self.grid.x + at.x) as usize].as_ref()
+    }
+
+    /// Number of tiles that are kept.
+    pub fn tile_count(&self) -> usize {
+        self.tiles.iter().flatten().count()
+    }
+
+    /// Bytes held to find the tiles and their ranges, which [`DepthMap::bytes`] leaves out.
+    pub fn directory_bytes(&self) -> usize {
+        size_of_val(self.tiles.as_slice())
+    }
+
+    /// A rectangle around all kept tiles.
+    pub(crate) fn stored(&self) -> TexelRect {
+        let kept = self.tiles.iter().zip(0..).filter(|(tile, _)| tile.is_some());
+        let all = kept.fold(TexelRect::EMPTY, |all, (_, index)| {
+            let origin = (UVec2::new(index % self.grid.x, index / self.grid.x) * TILE).as_ivec2();
+            all.union(TexelRect::new(origin, origin + TILE as i32))
+        });
+        all.intersect(TexelRect::of_size(self.view.size()))
+    }
+}
+
+impl DepthMap for Tiled {
+    fn view(&self) -> &View {
+        &self.view
+    }
+
+    #[inline(always)]
+    fn depth(&self, texel: IVec2) -> f32 {
+        if !TexelRect::of_size(self.view.size()).contains(texel) {
+            return f32::INFINITY;
+        }
+        let (tile, at) = (texel.as_uvec2() >> SHIFT, texel.as_uvec2() & (TILE - 1));
+        self.tile(tile).map_or(f32::INFINITY, |tile| tile.depths[(at.y * TILE + at.x) as usize])
+    }
+
+    #[inline(always)]
+    fn look<S: Simd>(&self, simd: S, _within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
+        let column: u32x16<S> = floor_texel(simd, x).bitcast();
+        let row: u32x16<S> = floor_texel(simd, y).bitcast();
+        let place = ((row & (TILE - 1)) << SHIFT) | (column & (TILE - 1));
+        let size = self.view.size();
+        let inside = column.simd_lt(u32x16::splat(simd, size.x)) & row.simd_lt(u32x16::splat(simd, size.y));
+        let tile = (row >> SHIFT) * self.grid.x + (column >> SHIFT);
+        let tile = inside.select(tile, u32x16::splat(simd, u32::MAX));
+        // The mask of AREA − 1 is of no effect but to show that no index can be out of bounds.
+        let depth = |i: usize| match self.tiles.get(tile[i] as usize) {
+            Some(Some(tile)) => tile.depths[place[i] as usize & (AREA - 1)],
+            _ => f32::INFINITY,
+        };
+        f32x16::load_array(simd, std::array::from_fn(depth))
+    }
+
+    /// The union over the tiles that `rect` touches; [`DepthRange::UNKNOWN`] when they are more than 64.
+    #[inline(always)]
+    fn range(&self, rect: TexelRect) -> DepthRange {
+        let whole = TexelRect::of_size(self.view.size());
+        let touched = whole.intersect(rect);
+        if touched.is_empty() {
+            return DepthRange::NOTHING;
+        }
+        let (low, high) = (touched.min.as_uvec2() >> SHIFT, (touched.max - 1).as_uvec2() >> SHIFT);
+        if (high - low + 1).element_product() > MOST_ASKED {
+            return DepthRange::UNKNOWN;
+        }
+        let mut range = if whole.encloses(rect) { NONE_YET } else { DepthRange::NOTHING };
+        for y in low.y..=high.y {
+            for x in low.x..=high.x {
+                range = range.union(self.tile(UVec2::new(x, y)).map_or(DepthRange::NOTHING, Tile::range));
+            }
+        }
+        range
+    }
+
+    fn bytes(&self) -> usize {
+        self.tile_count() * AREA * size_of::<f32>()
+    }
+}
+
+impl From<&Raw> for Tiled {
+    fn from(map: &Raw) -> Self {
+        Self::copy_of(map)
+    }
+}
+
+impl From<&Bbox> for Tiled {
+    fn from(map: &Bbox) -> Self {
+        Self::copy_of(map)
+    }
+}

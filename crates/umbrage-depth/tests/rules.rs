@@ -1,0 +1,274 @@
+//! The laws that every depth rule obeys, and the published results: V47, V47b, V50 to V54 (W92-1 to W92-4, WM94-1 to WM94-3, T-2).
+
+use glam::{DVec2, DVec3, UVec2};
+use proptest::prelude::*;
+use umbrage_depth::{BackFace, DepthRule, First, Midpoint, Second};
+use umbrage_plane::{Affine, Facet, Facing, Kind, View};
+
+/// One surface over a texel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Fragment {
+    zeta: f64,
+    front: bool,
+    sheet: bool,
+    object: u32,
+}
+
+const INF: f32 = f32::INFINITY;
+const AT: DVec2 = DVec2::new(3.5, 2.5);
+
+fn front(zeta: f64) -> Fragment {
+    Fragment { zeta, front: true, sheet: false, object: 0 }
+}
+
+fn back(zeta: f64) -> Fragment {
+    Fragment { front: false, ..front(zeta) }
+}
+
+fn sheet(fragment: Fragment) -> Fragment {
+    Fragment { sheet: true, ..fragment }
+}
+
+fn orthographic() -> View {
+    View::orthographic(DVec3::Z * 9.0, DVec3::ZERO, DVec3::Y, 1.0, 0.0, 100.0, UVec2::splat(8)).unwrap()
+}
+
+fn perspective() -> View {
+    View::perspective(DVec3::Z * 9.0, DVec3::ZERO, DVec3::Y, 1.0, 1.0, 100.0, UVec2::splat(8)).unwrap()
+}
+
+fn stored<R: DepthRule>(rule: &R, view: &View, fragments: &[Fragment]) -> f32 {
+    let mut cell = R::EMPTY;
+    for pass in 0..R::PASSES {
+        for fragment in fragments {
+            let facing = if fragment.front { Facing::Front } else { Facing::Back };
+            let plane = Affine::constant(view.key(fragment.zeta));
+            let facet = Facet { plane, facing, triangle: 0, object: fragment.object, sheet: fragment.sheet };
+            rule.add(pass, &mut cell, plane.at(AT) as f32, fragment.front, &facet);
+        }
+    }
+    rule.resolve(cell, &view.decode(), AT)
+}
+
+/// All orders of arrival, by Heap's method.
+fn orders(fragments: &[Fragment]) -> Vec<Vec<Fragment>> {
+    fn heap(length: usize, order: &mut Vec<Fragment>, all: &mut Vec<Vec<Fragment>>) {
+        if length <= 1 {
+            all.push(order.clone());
+            return;
+        }
+        for i in 0..length {
+            heap(length - 1, order, all);
+            order.swap(if length.is_multiple_of(2) { i } else { 0 }, length - 1);
+        }
+    }
+    let mut all = Vec::new();
+    heap(fragments.len(), &mut fragments.to_vec(), &mut all);
+    all
+}
+
+/// First, second, back face and midpoint, in every order of arrival and both projections (V54).
+#[track_caller]
+fn check(fragments: &[Fragment], want: [f32; 4]) {
+    for order in orders(fragments) {
+        for view in [orthographic(), perspective()] {
+            let found = [
+                stored(&First, &view, &order),
+                stored(&Second, &view, &order),
+                stored(&BackFace, &view, &order),
+                stored(&Midpoint::default(), &view, &order),
+            ];
+            for (found, want) in found.into_iter().zip(want) {
+                let near = found == want || (found - want).abs() <= 1e-6 * want;
+                assert!(near, "{found}, want {want} of {order:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn v50_two_solids_apart() {
+    check(&[front(3.0), back(5.0), front(8.0), back(9.0)], [3.0, 5.0, 5.0, 4.0]);
+}
+
+#[test]
+fn v51_two_solids_in_each_other_wm94_2() {
+    check(&[front(1.0), front(3.0), back(4.0), back(5.0)], [1.0, 3.0, 4.0, 2.0]);
+}
+
+#[test]
+fn v52_a_two_sided_sheet_wm94_3() {
+    check(&[sheet(front(2.0))], [2.0, 2.0, 2.0, INF]);
+    check(&[sheet(front(2.0)), sheet(back(2.0))], [2.0, 2.0, 2.0, INF]);
+}
+
+#[test]
+fn v53_an_open_sheet_passed_off_as_solid_t_9() {
+    check(&[front(4.0)], [4.0, INF, INF, INF]);
+}
+
+#[test]
+fn texels_without_a_fragment_hold_nothing() {
+    check(&[], [INF; 4]);
+}
+
+#[test]
+fn v47_midpoints() {
+    let half = |zetas: &[f64]| {
+        let fragments: Vec<_> = zetas.iter().map(|&zeta| front(zeta)).collect();
+        let found: Vec<f32> =
+            orders(&fragments).iter().map(|order| stored(&Midpoint::default(), &orthographic(), order)).collect();
+        assert!(found.iter().all(|depth| *depth == found[0]), "{zetas:?} gave {found:?}");
+        found[0]
+    };
+    assert_eq!(half(&[]), INF);
+    assert_eq!(half(&[5.0]), INF);
+    assert_eq!(half(&[9.0, 5.0]), 7.0);
+    assert_eq!(half(&[20.0, 9.0, 5.0]), 7.0);
+    assert_eq!(half(&[5.0, 5.0]), INF);
+    assert_eq!(half(&[5.0, 5.0, 9.0]), 7.0);
+    let quarter = Midpoint { ratio: 0.25, ..Midpoint::default() };
+    assert_eq!(stored(&quarter, &orthographic(), &[front(9.0), front(5.0)]), 6.0);
+}
+
+/// W92-1b: halfway in world distance, not in the map's own depth, which would store ζ = 6.428571.
+#[test]
+fn v47b_midpoints_are_halfway_in_the_world_whatever_the_kind() {
+    let pair = [front(5.0), back(9.0)];
+    let screen = perspective().with_kind(Kind::Screen);
+    let z_of = |zeta: f64| screen.decode().depth(screen.key(zeta) as f32, AT);
+    assert_eq!(stored(&Midpoint::default(), &screen, &pair), z_of(7.0));
+    let harmonic = 0.5 * (z_of(5.0) + z_of(9.0));
+    assert!((harmonic - z_of(6.428_571)).abs() < 1e-7 && harmonic < z_of(6.9));
+    let radial = perspective().with_kind(Kind::Radial);
+    let along = |zeta: f64| radial.decode().depth(radial.key(zeta) as f32, AT);
+    assert!((stored(&Midpoint::default(), &radial, &pair) - 0.5 * (along(5.0) + along(9.0))).abs() < 1e-6);
+}
+
+#[test]
+fn w92_4_surfaces_merge_within_the_tolerance_and_by_object_if_asked() {
+    let (same, near, far) = (Midpoint::default(), 5.0 * (1.0 + 0.8e-6), 5.0 * (1.0 + 1.3e-6));
+    for view in [orthographic(), perspective()] {
+        assert_eq!(stored(&same, &view, &[front(5.0), front(near)]), INF);
+        assert!(stored(&same, &view, &[front(5.0), front(far)]) < 5.1);
+        assert!(stored(&Midpoint { merge: 0.0, ..same }, &view, &[front(5.0), front(near)]) < 5.1);
+    }
+    let of = |object: u32, zeta: f64| Fragment { object, ..front(zeta) };
+    let by_object = Midpoint { same_object: true, ..same };
+    for order in orders(&[of(1, 5.0), of(2, 5.0), of(1, 9.0)]) {
+        assert_eq!(stored(&same, &orthographic(), &order), 7.0);
+        assert_eq!(stored(&by_object, &orthographic(), &order), 5.0);
+    }
+    for order in orders(&[of(3, 5.0), of(3, 5.0), of(3, 9.0)]) {
+        assert_eq!(stored(&by_object, &orthographic(), &order), 7.0);
+    }
+}
+
+/// Up to six fragments, many of them equal or a few last bits apart, in front of and at the light's plane.
+fn fragments() -> impl Strategy<Value = Vec<Fragment>> {
+    let zeta = prop_oneof![
+        Just(5.0f64),
+        (-4i32..5).prop_map(|bits| f64::from(f32::from_bits(5f32.to_bits().wrapping_add_signed(bits)))),
+        (-20i32..21).prop_map(|steps| 5.0 + f64::from(steps) * 5e-7),
+        1.0f64..90.0,
+    ];
+    let fragment = (zeta, any::<bool>(), any::<bool>(), 0u32..3).prop_map(|(zeta, front, sheet, object)| Fragment {
+        zeta,
+        front,
+        sheet,
+        object,
+    });
+    proptest::collection::vec(fragment, 0..6)
+}
+
+fn ignores_order(name: &str, rule: &impl DepthRule, view: &View, fragments: &[Fragment]) {
+    let first = stored(rule, view, fragments);
+    assert!(!first.is_nan(), "{name}");
+    for order in orders(fragments) {
+        let found = stored(rule, view, &order);
+        assert_eq!(found.to_bits(), first.to_bits(), "{name}: {found} or {first} of {order:?}");
+    }
+}
+
+fn ignores_nan(name: &str, rule: &impl DepthRule, view: &View, fragments: &[Fragment]) {
+    let with = [&[front(f64::NAN)], fragments, &[sheet(back(f64::NAN))]].concat();
+    assert_eq!(stored(rule, view, &with), stored(rule, view, fragments), "{name}");
+}
+
+/// The one list of rules.
+macro_rules! every_rule {
+    ($law:ident $(, $more:expr)*) => {
+        $law("first", &First $(, $more)*);
+        $law("second", &Second $(, $more)*);
+        $law("back face", &BackFace $(, $more)*);
+        $law("midpoint", &Midpoint::default() $(, $more)*);
+        $law("midpoint by object", &Midpoint { same_object: true, ..Midpoint::default() } $(, $more)*);
+        $law("quarter point, unmerged", &Midpoint { ratio: 0.25, merge: 0.0, same_object: false } $(, $more)*);
+    };
+}
+
+proptest! {
+    #[test]
+    fn v54_no_rule_depends_on_the_order_of_arrival(fragments in fragments()) {
+        for view in [orthographic(), perspective(), perspective().with_kind(Kind::Screen), perspective().with_kind(Kind::Radial)] {
+            every_rule!(ignores_order, &view, &fragments);
+        }
+    }
+
+    #[test]
+    fn no_rule_stores_nan(fragments in fragments()) {
+        every_rule!(ignores_nan, &perspective(), &fragments);
+    }
+
+    /// WM94-2: for solids apart from each other, each of the builders stores the same.
+    #[test]
+    fn wm94_2_second_and_back_face_agree_on_disjoint_solids(mut zetas in proptest::collection::vec(1.0f64..90.0, 0..4)) {
+        zetas.sort_by(f64::total_cmp);
+        let solids: Vec<_> = zetas.chunks_exact(2).flat_map(|pair| [front(pair[0]), back(pair[1])]).collect();
+        for view in [orthographic(), perspective()] {
+            prop_assert_eq!(stored(&Second, &view, &solids), stored(&BackFace, &view, &solids));
+        }
+    }
+
+    /// WM94-13: a scene of nothing but sheets stores the nearest.
+    #[test]
+    fn wm94_3_sheets_alone_store_the_first_depth(fragments in fragments()) {
+        let sheets: Vec<_> = fragments.into_iter().map(sheet).collect();
+        let first = stored(&First, &perspective(), &sheets);
+        prop_assert_eq!(stored(&Second, &perspective(), &sheets), first);
+        prop_assert_eq!(stored(&BackFace, &perspective(), &sheets), first);
+    }
+
+    /// W92-3: the nearest surface is lit and the next shadowed, without a bias (C-7).
+    #[test]
+    fn w92_3_midpoint_separates_the_two_nearest(fragments in fragments()) {
+        let mut solid: Vec<_> = fragments.into_iter().map(|f| Fragment { sheet: false, ..f }).collect();
+        for view in [orthographic(), perspective()] {
+            let (first, mid) = (stored(&First, &view, &solid), stored(&Midpoint::default(), &view, &solid));
+            prop_assert!(first <= mid);
+            solid.retain(|f| f.zeta > f64::from(first) * (1.0 + 1.5e-6));
+            prop_assert!(solid.is_empty() || stored(&First, &view, &solid) > mid);
+        }
+    }
+
+    /// W92-2: at ratio 1 it is the second surface; T-2: surfaces drawn twice change nothing.
+    #[test]
+    fn t_2_midpoint_does_not_see_what_is_drawn_twice(mut zetas in proptest::collection::vec(1.0f64..90.0, 2..5)) {
+        zetas.dedup();
+        let once: Vec<_> = zetas.iter().map(|&zeta| front(zeta)).collect();
+        let twice: Vec<_> = once.iter().chain(&once).copied().collect();
+        for view in [orthographic(), perspective()] {
+            let whole = Midpoint { ratio: 1.0, merge: 0.0, same_object: false };
+            prop_assert_eq!(stored(&whole, &view, &once), stored(&Second, &view, &once));
+            let mid = Midpoint::default();
+            prop_assert_eq!(stored(&mid, &view, &once), stored(&mid, &view, &twice));
+        }
+    }
+}
+
+/// Zero has two signs and one depth: the order of equal keys must not show.
+#[test]
+fn v54_the_sign_of_zero_does_not_show() {
+    let zeros = [front(0.0), front(-0.0), back(0.0), back(-0.0)];
+    every_rule!(ignores_order, &orthographic(), &zeros);
+}

@@ -1,0 +1,157 @@
+use crate::error::{Fault, IoError};
+use crate::file::{read_bytes, write_bytes};
+use exr::prelude as exr;
+use glam::{UVec2, Vec3};
+use image::codecs::png::{CompressionType, FilterType, PngDecoder, PngEncoder};
+use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, Limits};
+use std::io::Cursor;
+use std::path::Path;
+
+/// A picture as it stands in a PNG file: 8-bit sRGB codes, rows from the top.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Codes {
+    /// Columns and rows.
+    pub size: UVec2,
+    /// Red, green, blue; grey pictures have them equal.
+    pub rgb: Vec<[u8; 3]>,
+}
+
+/// The 8-bit sRGB code of linear light: of the 256 codes the one whose value is nearest after encoding; a value midway
+/// between two takes the upper one. Below 0 and NaN are 0, above 1 is 255.
+pub fn linear_to_srgb8(linear: f32) -> u8 {
+    let linear = f64::from(linear.clamp(0.0, 1.0));
+    let encoded = if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
+    // A NaN has passed the clamp and becomes 0 here.
+    (encoded * 255.0 + 0.5) as u8
+}
+
+/// A PNG file's bytes from linear light; the same bytes for the same picture. `linear_rgb` holds `size.x` × `size.y`
+/// pixels, rows from the top.
+///
+/// # Errors
+/// When the number of pixels does not fit the size, or the size has no pixels.
+pub fn encode_png(size: UVec2, linear_rgb: &[Vec3]) -> Result<Vec<u8>, Fault> {
+    check_length(size, linear_rgb.len())?;
+    let codes: Vec<u8> = linear_rgb.iter().flat_map(|pixel| pixel.to_array().map(linear_to_srgb8)).collect();
+    encode(size, &codes, ExtendedColorType::Rgb8)
+}
+
+/// As [`encode_png`], in shades of grey: 0 is black, 1 is white, linear light.
+///
+/// # Errors
+/// As [`encode_png`].
+pub fn encode_png_grey(size: UVec2, linear_grey: &[f32]) -> Result<Vec<u8>, Fault> {
+    check_length(size, linear_grey.len())?;
+    let codes: Vec<u8> = linear_grey.iter().map(|grey| linear_to_srgb8(*grey)).collect();
+    encode(size, &codes, ExtendedColorType::L8)
+}
+
+/// Writes [`encode_png`]'s bytes, as a whole or not at all.
+///
+/// # Errors
+/// [`IoError`], when the pixels do not fit the size or the system refuses.
+pub fn write_png(path: &Path, size: UVec2, linear_rgb: &[Vec3]) -> Result<(), IoError> {
+    write_bytes(path, &encode_png(size, linear_rgb).map_err(|fault| fault.in_file(path))?)
+}
+
+/// Writes [`encode_png_grey`]'s bytes, as a whole or not at all.
+///
+/// # Errors
+/// As [`write_png`].
+pub fn write_png_grey(path: &Path, size: UVec2, linear_grey: &[f32]) -> Result<(), IoError> {
+    write_bytes(path, &encode_png_grey(size, linear_grey).map_err(|fault| fault.in_file(path))?)
+}
+
+/// Reads a PNG file's codes; transparency is dropped, 16 bits become 8. At most 2²⁶ pixels.
+///
+/// # Errors
+/// [`IoError`], when the system refuses or the file is no PNG of a size within the limit.
+pub fn read_png(path: &Path) -> Result<Codes, IoError> {
+    decode_png(&read_bytes(path)?).map_err(|fault| fault.in_file(path))
+}
+
+/// As [`read_png`], from bytes.
+///
+/// # Errors
+/// A [`Fault`], when the bytes are no PNG of a size within the limit.
+pub fn decode_png(bytes: &[u8]) -> Result<Codes, Fault> {
+    const MOST_PIXELS: u64 = 1 << 26;
+    let broken = |error: image::ImageError| Fault::new("PNG data", format!("{} bytes", bytes.len()), error);
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(MOST_PIXELS * 8);
+    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(broken)?;
+    let (width, height) = decoder.dimensions();
+    if u64::from(width) * u64::from(height) > MOST_PIXELS {
+        return Err(Fault::new("IHDR size", format!("{width} x {height}"), format!("more than {MOST_PIXELS} pixels")));
+    }
+    let picture = DynamicImage::from_decoder(decoder).map_err(broken)?.into_rgb8();
+    Ok(Codes { size: UVec2::new(width, height), rgb: picture.pixels().map(|pixel| pixel.0).collect() })
+}
+
+/// An EXR file's bytes with channels R, G, B as 32-bit floats, linear light, ZIP; the same bytes for the same picture.
+///
+/// # Errors
+/// As [`encode_png`].
+pub fn encode_exr(size: UVec2, linear_rgb: &[Vec3]) -> Result<Vec<u8>, Fault> {
+    use exr::WritableImage;
+    check_length(size, linear_rgb.len())?;
+    let width = size.x as usize;
+    let pixel = |at: exr::Vec2<usize>| {
+        let pixel = linear_rgb[at.y() * width + at.x()];
+        (pixel.x, pixel.y, pixel.z)
+    };
+    let encoding = exr::Encoding {
+        compression: exr::Compression::ZIP16,
+        blocks: exr::Blocks::ScanLines,
+        line_order: exr::LineOrder::Increasing,
+    };
+    let layer = exr::Layer::new(
+        (width, size.y as usize),
+        exr::LayerAttributes::default(),
+        encoding,
+        exr::SpecificChannels::rgb(pixel),
+    );
+    let mut bytes = Cursor::new(Vec::new());
+    let written = exr::Image::from_layer(layer).write().non_parallel().to_buffered(&mut bytes);
+    written.map_err(|error| Fault::new("picture", format!("{width} x {}", size.y), error))?;
+    Ok(bytes.into_inner())
+}
+
+/// Writes [`encode_exr`]'s bytes, as a whole or not at all.
+///
+/// # Errors
+/// As [`write_png`].
+pub fn write_exr(path: &Path, size: UVec2, linear_rgb: &[Vec3]) -> Result<(), IoError> {
+    write_bytes(path, &encode_exr(size, linear_rgb).map_err(|fault| fault.in_file(path))?)
+}
+
+/// Every pixel as a square of `factor` × `factor` pixels, for zooms that invent nothing. The new size and its pixels;
+/// a factor of 0 leaves none.
+///
+/// # Panics
+/// When `pixels` holds fewer than `size.x` × `size.y`, or the new size passes 2³².
+pub fn replicate<T: Copy>(size: UVec2, pixels: &[T], factor: u32) -> (UVec2, Vec<T>) {
+    let zoomed = UVec2::new(
+        size.x.checked_mul(factor).expect("a width below 2^32"),
+        size.y.checked_mul(factor).expect("a height below 2^32"),
+    );
+    let source = |x: u32, y: u32| pixels[(y / factor) as usize * size.x as usize + (x / factor) as usize];
+    (zoomed, (0..zoomed.y).flat_map(|y| (0..zoomed.x).map(move |x| source(x, y))).collect())
+}
+
+fn check_length(size: UVec2, length: usize) -> Result<(), Fault> {
+    let pixels = u64::from(size.x) * u64::from(size.y);
+    if pixels == 0 || pixels != length as u64 {
+        let problem = format!("{length} pixels do not fill it");
+        return Err(Fault::new("picture size", format!("{} x {}", size.x, size.y), problem));
+    }
+    Ok(())
+}
+
+fn encode(size: UVec2, codes: &[u8], kind: ExtendedColorType) -> Result<Vec<u8>, Fault> {
+    let mut bytes = Vec::new();
+    PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive)
+        .write_image(codes, size.x, size.y, kind)
+        .map_err(|error| Fault::new("picture", format!("{} x {}", size.x, size.y), error))?;
+    Ok(bytes)
+}

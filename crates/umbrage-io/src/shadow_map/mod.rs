@@ -1,0 +1,66 @@
+//! Depth maps as EXR files (R87-4).
+//!
+//! One part, tiled 64 × 64, ZIP, one channel `Z` of 32-bit floats, one level. The display window is the map, the data
+//! window the box around its finite depths; texels outside it are +∞. Attributes: `worldToCamera` (left-handed, +z ahead, as
+//! OpenEXR has it), `worldToNDC` ((0, 0) upper left to (1, 1) lower right), `near`, `far`, `textureformat = "Shadow"`, and in
+//! `comments` the view in full precision and a digest of view and depths, by which damage is noticed. Files without the latter
+//! are read from the matrices; tools that change our files must drop `comments` and `software`.
+
+mod matrices;
+mod read;
+mod text;
+mod write;
+
+use crate::error::{Fault, IoError};
+use crate::file::{read_bytes, write_bytes};
+use std::path::Path;
+use umbrage_depth::{DepthMap, Raw};
+
+/// Most texels that [`read_shadow_map`] takes: 16,384 × 16,384, which is 1 GiB.
+pub const DEFAULT_BUDGET: u64 = 1 << 28;
+
+/// A shadow map's file as bytes; the same bytes for the same map, whatever its storage.
+///
+/// # Errors
+/// A [`Fault`] when the coder refuses; no map that can be made is known to bring that about.
+pub fn encode_shadow_map(map: &impl DepthMap) -> Result<Vec<u8>, Fault> {
+    write::encode(map)
+}
+
+/// Writes a map's file, as a whole or not at all (R87-4).
+///
+/// # Errors
+/// [`IoError`], when the system refuses.
+pub fn write_shadow_map(path: &Path, map: &impl DepthMap) -> Result<(), IoError> {
+    write_bytes(path, &encode_shadow_map(map).map_err(|fault| fault.in_file(path))?)
+}
+
+/// Reads a map: depths and view equal those that were written bit for bit (R87-4). Depths of 1e30 and more count as +∞
+/// (C-5).
+///
+/// Files of other makers are taken when they have one part with one channel `Z` of floats, stored without loss, and the four
+/// attributes; their depths are axial, their texels sampled at the centre, and what lies outside is lit.
+///
+/// # Errors
+/// [`IoError`]: one line with the file, the field and its value, when the system refuses or the file is damaged, hostile, too large
+/// ([`DEFAULT_BUDGET`]) or no shadow map.
+pub fn read_shadow_map(path: &Path) -> Result<Raw, IoError> {
+    read_shadow_map_within(path, DEFAULT_BUDGET)
+}
+
+/// As [`read_shadow_map`], for maps of at most `most_texels` texels.
+///
+/// # Errors
+/// As [`read_shadow_map`].
+pub fn read_shadow_map_within(path: &Path, most_texels: u64) -> Result<Raw, IoError> {
+    decode_shadow_map(&read_bytes(path)?, most_texels).map_err(|fault| fault.in_file(path))
+}
+
+/// As [`read_shadow_map_within`], from bytes.
+///
+/// # Errors
+/// A [`Fault`], when the bytes are no shadow map of that size.
+pub fn decode_shadow_map(bytes: &[u8], most_texels: u64) -> Result<Raw, Fault> {
+    let (view, depths) = read::decode(bytes, most_texels)?;
+    Raw::new(view, depths).map_err(|error| Fault::new("channel Z", "no map", error))
+}

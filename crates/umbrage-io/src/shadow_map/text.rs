@@ -1,0 +1,147 @@
+use crate::error::Fault;
+use glam::{DMat4, DVec2, UVec2};
+use std::fmt::Write;
+use umbrage_plane::{Kind, Projection, Rules, Sampling, Verdict, View};
+
+/// The first line of the text that holds a view.
+const SIGNATURE: &str = "umbrage view 1";
+
+/// The attribute that holds it.
+const FIELD: &str = "comments";
+
+/// What our files name as the software that made them.
+pub(crate) const SOFTWARE: &str = "umbrage";
+
+/// A view as lines of `name=value`. Numbers are the shortest decimals that give the same f64 again.
+fn of_view(view: &View) -> String {
+    let numbers = |numbers: &[f64]| numbers.iter().map(|n| format!("{n:?}")).collect::<Vec<_>>().join(" ");
+    let (projection, scale) = match view.projection() {
+        Projection::Perspective { k } => ("perspective", k),
+        Projection::Orthographic { half } => ("orthographic", half),
+    };
+    let kind = match view.kind() {
+        Kind::Axial => "axial",
+        Kind::Screen => "screen",
+        Kind::Radial => "radial",
+        Kind::Object => "object",
+    };
+    let sampling = match view.sampling() {
+        Sampling::Centre => "centre".into(),
+        Sampling::Jittered { seed } => format!("jittered {seed}"),
+    };
+    let Rules { behind, outside, beyond_cone, near, far } = *view.rules();
+    let rules = [behind, outside, beyond_cone, near, far].map(verdict_name).join(" ");
+    let mut text = format!("{SIGNATURE}\n");
+    let mut line = |name: &str, value: &str| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{name}={value}");
+    };
+    line("world_to_eye", &numbers(&view.world_to_eye().to_cols_array()));
+    line(projection, &numbers(&scale.to_array()));
+    line("near", &numbers(&[view.near()]));
+    line("far", &numbers(&[view.far()]));
+    line("size", &format!("{} {}", view.size().x, view.size().y));
+    line("kind", kind);
+    line("sampling", &sampling);
+    line("rules", &rules);
+    if let Some(tan_half) = view.cone() {
+        line("cone", &numbers(&[tan_half]));
+    }
+    text
+}
+
+/// The text of a file: the view, and the digest of view and depths.
+pub(crate) fn of_map(view: &View, depths: impl IntoIterator<Item = f32>) -> String {
+    format!("{}digest={:016x}\n", of_view(view), digest(view, depths))
+}
+
+/// A number that depends on every bit of a view and its depths (64-bit FNV-1a), so that a damaged file is not taken for
+/// another map. It is no seal: whoever wants to can compute it.
+pub(crate) fn digest(view: &View, depths: impl IntoIterator<Item = f32>) -> u64 {
+    let fold = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3);
+    let start = of_view(view).bytes().fold(0xCBF2_9CE4_8422_2325, fold);
+    depths.into_iter().flat_map(f32::to_le_bytes).fold(start, fold)
+}
+
+/// The view in a text and the digest beside it, or `None` when the text is somebody else's.
+pub(crate) fn to_view(text: &str) -> Option<Result<(View, u64), Fault>> {
+    let lines = text.strip_prefix(SIGNATURE)?.strip_prefix('\n')?;
+    Some(parse(lines))
+}
+
+fn parse(lines: &str) -> Result<(View, u64), Fault> {
+    let line = |name: &str| {
+        let value = |line: &'_ str| line.strip_prefix(name)?.strip_prefix('=').map(str::to_owned);
+        lines.lines().find_map(value)
+    };
+    let need = |name: &str| line(name).ok_or_else(|| fault(name, "missing", "a view needs it"));
+    let one = |name: &str| Ok::<f64, Fault>(numbers::<1>(name, &need(name)?)?[0]);
+    let matrix = DMat4::from_cols_array(&numbers("world_to_eye", &need("world_to_eye")?)?);
+    let projection = if let Some(k) = line("perspective") {
+        Projection::Perspective { k: DVec2::from_array(numbers("perspective", &k)?) }
+    } else {
+        Projection::Orthographic { half: DVec2::from_array(numbers("orthographic", &need("orthographic")?)?) }
+    };
+    let size = need("size")?;
+    let sides = size.split_once(' ').and_then(|(x, y)| Some(UVec2::new(x.parse().ok()?, y.parse().ok()?)));
+    let sides = sides.ok_or_else(|| fault("size", &size, "not two whole numbers"))?;
+    let view = View::new(matrix, projection, one("near")?, one("far")?, sides)
+        .map_err(|error| fault("view", "unusable", &error.to_string()))?;
+    let cone = line("cone").map(|cone| numbers::<1>("cone", &cone)).transpose()?.map(|[tan_half]| tan_half);
+    if cone.is_some_and(|tan_half| !(tan_half.is_finite() && tan_half > 0.0)) {
+        return Err(fault("cone", &format!("{cone:?}"), "not positive and finite"));
+    }
+    let view = view.with_kind(kind(&need("kind")?)?).with_sampling(sampling(&need("sampling")?)?);
+    let view = view.with_rules(rules(&need("rules")?)?).with_cone(cone);
+    let digest = need("digest")?;
+    let number = u64::from_str_radix(&digest, 16).map_err(|error| fault("digest", &digest, &error.to_string()))?;
+    Ok((view, number))
+}
+
+fn numbers<const N: usize>(name: &str, text: &str) -> Result<[f64; N], Fault> {
+    let parsed: Vec<f64> = text.split(' ').map_while(|number| number.parse().ok()).collect();
+    let all = text.split(' ').count() == parsed.len();
+    parsed.try_into().ok().filter(|_| all).ok_or_else(|| fault(name, text, &format!("not {N} numbers")))
+}
+
+fn kind(text: &str) -> Result<Kind, Fault> {
+    match text {
+        "axial" => Ok(Kind::Axial),
+        "screen" => Ok(Kind::Screen),
+        "radial" => Ok(Kind::Radial),
+        "object" => Ok(Kind::Object),
+        _ => Err(fault("kind", text, "not axial, screen, radial or object")),
+    }
+}
+
+fn sampling(text: &str) -> Result<Sampling, Fault> {
+    if text == "centre" {
+        return Ok(Sampling::Centre);
+    }
+    let seed = text.strip_prefix("jittered ").and_then(|seed| seed.parse().ok());
+    seed.map(|seed| Sampling::Jittered { seed })
+        .ok_or_else(|| fault("sampling", text, "neither centre nor jittered with a seed"))
+}
+
+fn rules(text: &str) -> Result<Rules, Fault> {
+    let verdict = |name: &str| VERDICTS.into_iter().find(|verdict| verdict_name(*verdict) == name);
+    let verdicts: Option<Vec<Verdict>> = text.split(' ').map(verdict).collect();
+    match verdicts.as_deref() {
+        Some(&[behind, outside, beyond_cone, near, far]) => Ok(Rules { behind, outside, beyond_cone, near, far }),
+        _ => Err(fault("rules", text, "not five of lit, shadowed, compare")),
+    }
+}
+
+const VERDICTS: [Verdict; 3] = [Verdict::Lit, Verdict::Shadowed, Verdict::Compare];
+
+fn verdict_name(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Lit => "lit",
+        Verdict::Shadowed => "shadowed",
+        Verdict::Compare => "compare",
+    }
+}
+
+fn fault(name: &str, value: &str, problem: &str) -> Fault {
+    Fault::new(format!("{FIELD}: {name}"), value, problem)
+}

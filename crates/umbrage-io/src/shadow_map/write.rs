@@ -1,0 +1,83 @@
+use super::{matrices, text};
+use crate::error::Fault;
+use exr::block::{self, BlockIndex, writer::ChunksWriter};
+use exr::meta::attribute::{LevelMode, TileDescription};
+use exr::meta::header::{Header, LayerAttributes};
+use exr::meta::{BlockDescription, attribute};
+use exr::prelude::{AttributeValue, ChannelDescription, Compression, IntegerBounds, LineOrder, SampleType, Text, Vec2};
+use glam::IVec2;
+use std::io::Cursor;
+use umbrage_depth::DepthMap;
+use umbrage_plane::{TexelRect, View};
+
+/// Side of a tile, texels.
+const TILE: usize = 64;
+
+pub(crate) fn encode(map: &impl DepthMap) -> Result<Vec<u8>, Fault> {
+    let view = map.view();
+    let window = stored_window(map);
+    let texels = TexelRect::of_size(view.size()).texels();
+    let comments = text::of_map(view, texels.map(|texel| map.depth(texel)));
+    let mut bytes = Cursor::new(Vec::new());
+    let headers = std::iter::once(header(view, window, &comments)).collect();
+    let written = block::write(&mut bytes, headers, true, |meta, writer| {
+        let mut compressor = writer.sequential_blocks_compressor(&meta);
+        for (index, block) in meta.collect_ordered_block_data(|block| samples(map, window, block)) {
+            compressor.compress_block(index, block)?;
+        }
+        Ok(())
+    });
+    let size = view.size();
+    written.map_err(|error| Fault::new("shadow map", format!("{} x {}", size.x, size.y), error))?;
+    Ok(bytes.into_inner())
+}
+
+/// The smallest rectangle around the finite depths (R87-19); one texel, as EXR needs it, when there are none.
+fn stored_window(map: &impl DepthMap) -> TexelRect {
+    let finite = TexelRect::of_size(map.view().size()).texels().filter(|texel| map.depth(*texel).is_finite());
+    let one = |texel: IVec2| TexelRect::new(texel, texel + IVec2::ONE);
+    let window = finite.fold(TexelRect::EMPTY, |window, texel| window.union(one(texel)));
+    if window.is_empty() { one(IVec2::ZERO) } else { window }
+}
+
+fn header(view: &View, window: TexelRect, comments: &str) -> Header {
+    let sides = window.size();
+    let [world_to_camera, world_to_ndc] = matrices::of_view(view);
+    let mut attributes = LayerAttributes {
+        layer_position: Vec2(window.min.x, window.min.y),
+        world_to_camera: Some(world_to_camera),
+        world_to_normalized_device: Some(world_to_ndc),
+        near_clip_plane: Some(view.near() as f32),
+        far_clip_plane: Some(view.far() as f32),
+        comments: Some(Text::from(comments)),
+        software_name: Some(Text::from(text::SOFTWARE)),
+        ..LayerAttributes::named("shadow")
+    };
+    // The crate keeps other attributes in a hash map: more than one would be written in a different order each time.
+    attributes.other.insert(Text::from("textureformat"), AttributeValue::Text(Text::from("Shadow")));
+    let depth = ChannelDescription {
+        name: Text::from("Z"),
+        sample_type: SampleType::F32,
+        quantize_linearly: false,
+        sampling: Vec2(1, 1),
+    };
+    let tiles = TileDescription {
+        tile_size: Vec2(TILE, TILE),
+        level_mode: LevelMode::Singular,
+        rounding_mode: exr::math::RoundingMode::Down,
+    };
+    let size = view.size();
+    let display = IntegerBounds::from_dimensions(Vec2(size.x as usize, size.y as usize));
+    let channels: attribute::ChannelList = attribute::ChannelList::new(std::iter::once(depth).collect());
+    Header::new(Text::from("shadow"), Vec2(sides.x as usize, sides.y as usize), channels.list)
+        .with_encoding(Compression::ZIP16, BlockDescription::Tiles(tiles), LineOrder::Increasing)
+        .with_attributes(attributes)
+        .with_display_window(display)
+}
+
+/// A block's depths as the coder wants them: rows of native-endian floats.
+fn samples(map: &impl DepthMap, window: TexelRect, block: BlockIndex) -> Vec<u8> {
+    let first = window.min + IVec2::new(block.pixel_position.x() as i32, block.pixel_position.y() as i32);
+    let sides = IVec2::new(block.pixel_size.x() as i32, block.pixel_size.y() as i32);
+    TexelRect::new(first, first + sides).texels().flat_map(|texel| map.depth(texel).to_ne_bytes()).collect()
+}

@@ -1,0 +1,60 @@
+use crate::folder;
+use std::fs;
+use std::io::{Error, Write};
+use umbrage_io::{IoError, write_atomic, write_bytes};
+
+fn names(folder: &std::path::Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").file_name());
+    entries.map(|name| name.into_string().expect("UTF-8")).collect()
+}
+
+#[test]
+fn a_file_is_written_whole_and_replaces_the_old_one() {
+    let folder = folder("whole");
+    let path = folder.join("picture.png");
+    write_bytes(&path, b"old").expect("written");
+    write_bytes(&path, b"newer").expect("written");
+    assert_eq!(fs::read(&path).expect("readable"), b"newer");
+    assert_eq!(names(&folder), ["picture.png"]);
+}
+
+#[test]
+fn failure_leaves_the_old_file_and_nothing_else() {
+    let folder = folder("failure");
+    let path = folder.join("picture.png");
+    write_bytes(&path, b"old").expect("written");
+    let fails = write_atomic(&path, |file| {
+        file.write_all(&vec![7; 100_000])?;
+        Err(Error::other("disk on fire"))
+    });
+    let message = fails.expect_err("it failed").to_string();
+    assert!(
+        message.contains("picture.png") && message.contains("disk on fire") && !message.contains('\n'),
+        "{message}"
+    );
+    assert_eq!(fs::read(&path).expect("readable"), b"old");
+    assert_eq!(names(&folder), ["picture.png"]);
+    let fresh = write_atomic(&folder.join("other"), |_| Err(Error::other("no")));
+    assert!(matches!(fresh, Err(IoError::System { action: "write", .. })));
+    assert_eq!(names(&folder), ["picture.png"]);
+}
+
+#[test]
+fn a_name_that_a_folder_has_is_refused_and_nothing_stays_behind() {
+    let folder = folder("occupied");
+    fs::create_dir(folder.join("maps")).expect("a folder");
+    fs::write(folder.join("maps").join("inside"), b"kept").expect("a file");
+    assert!(write_bytes(&folder.join("maps"), b"x").is_err());
+    assert_eq!(names(&folder), ["maps"]);
+    assert!(write_bytes(&folder.join("none").join("x"), b"x").is_err());
+    assert!(write_bytes(std::path::Path::new("/"), b"x").is_err());
+}
+
+#[test]
+fn files_of_interrupted_runs_are_no_obstacle() {
+    let folder = folder("interrupted");
+    fs::write(folder.join(".a.exr.0.tmp"), b"torn").expect("a file");
+    write_bytes(&folder.join("a.exr"), b"whole").expect("written");
+    assert_eq!(fs::read(folder.join("a.exr")).expect("readable"), b"whole");
+    assert_eq!(fs::read(folder.join(".a.exr.0.tmp")).expect("not ours to take"), b"torn");
+}

@@ -1,0 +1,202 @@
+use crate::{folder, map, spot, sun, views};
+use ::exr::prelude as exr;
+use ::exr::prelude::{ReadChannels as _, ReadLayers as _};
+use glam::{DVec3, DVec4, Mat4, UVec2};
+use proptest::prelude::*;
+use umbrage_depth::{Bbox, DepthMap, Raw, Tiled};
+use umbrage_io::{DEFAULT_BUDGET, decode_shadow_map, encode_shadow_map, read_shadow_map, write_shadow_map};
+use umbrage_plane::{Kind, Projection, Rules, Sampling, View};
+
+fn bits(map: &Raw) -> Vec<u32> {
+    map.depths().iter().map(|depth| depth.to_bits()).collect()
+}
+
+fn again(map: &Raw) -> Raw {
+    decode_shadow_map(&encode_shadow_map(map).expect("written"), DEFAULT_BUDGET).expect("read")
+}
+
+#[test]
+fn r87_4_round_trip_is_bit_exact_for_every_kind_and_size() {
+    for size in [UVec2::ONE, UVec2::new(37, 61), UVec2::splat(64), UVec2::new(65, 1), UVec2::new(130, 129)] {
+        for view in views(size) {
+            let written = map(&view);
+            let read = again(&written);
+            assert_eq!(bits(&read), bits(&written), "{size}");
+            assert_eq!(read.view(), written.view());
+            let bits_of = |view: &View| view.world_to_eye().to_cols_array().map(f64::to_bits);
+            assert_eq!(bits_of(read.view()), bits_of(&view));
+            let at = DVec3::new(0.3, 0.1, 0.2);
+            assert_eq!(read.view().world_at(at.truncate(), -0.125), view.world_at(at.truncate(), -0.125));
+        }
+    }
+}
+
+#[test]
+fn r87_4_empty_full_and_signed_maps() {
+    let view = sun(UVec2::new(3, 2));
+    let cases = [
+        vec![f32::INFINITY; 6],
+        vec![0.0, -0.0, 1e-45, -3.5, 9.9e29, f32::MIN],
+        vec![f32::INFINITY, f32::INFINITY, f32::INFINITY, f32::INFINITY, f32::INFINITY, 1.0],
+    ];
+    for depths in cases {
+        let written = Raw::new(view, depths).expect("valid");
+        assert_eq!(bits(&again(&written)), bits(&written));
+    }
+}
+
+#[test]
+fn the_same_map_makes_the_same_bytes_whatever_its_storage() {
+    let raw = map(&spot(UVec2::new(150, 90)));
+    let bytes = encode_shadow_map(&raw).expect("written");
+    for _ in 0..8 {
+        assert_eq!(encode_shadow_map(&raw).expect("written"), bytes);
+    }
+    assert_eq!(encode_shadow_map(&Bbox::from(&raw)).expect("written"), bytes);
+    assert_eq!(encode_shadow_map(&Tiled::from(&raw)).expect("written"), bytes);
+}
+
+#[test]
+fn files_on_disk() {
+    let folder = folder("maps");
+    let path = folder.join("lamp.exr");
+    let written = map(&spot(UVec2::new(40, 30)));
+    write_shadow_map(&path, &written).expect("written");
+    assert_eq!(read_shadow_map(&path).expect("read"), written);
+    let absent = read_shadow_map(&folder.join("no\nlamp.exr")).expect_err("absent").to_string();
+    assert!(absent.contains("no\\nlamp.exr: cannot open") && !absent.contains('\n'), "{absent}");
+    assert!(read_shadow_map(&folder).expect_err("a folder").to_string().contains("not a regular file"));
+}
+
+#[test]
+fn other_tools_find_what_the_convention_promises() {
+    let view = spot(UVec2::new(48, 36));
+    let written = map(&view);
+    let path = folder("convention").join("lamp.exr");
+    write_shadow_map(&path, &written).expect("written");
+    let image = exr::read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer();
+    let image = exr::ReadImage::from_file(image.all_attributes(), &path).expect("the crate's own reader takes it");
+    let (layer, window) = (&image.layer_data, image.attributes.display_window);
+    assert_eq!((window.position, window.size), (exr::Vec2(0, 0), exr::Vec2(48, 36)));
+    assert_eq!(layer.attributes.layer_position, exr::Vec2(16, 12));
+    assert_eq!(layer.size, exr::Vec2(24, 18));
+    let attributes = &layer.attributes;
+    assert_eq!(
+        attributes.other.get(&exr::Text::from("textureformat")),
+        Some(&exr::AttributeValue::Text(exr::Text::from("Shadow")))
+    );
+    assert_eq!((attributes.near_clip_plane, attributes.far_clip_plane), (Some(20.1), Some(220.3)));
+    let channel = &layer.channel_data.list[0];
+    assert_eq!(channel.name, exr::Text::from("Z"));
+
+    // A point ahead of the light: +z in camera space, and its texel in NDC.
+    let at = DVec3::new(1.0, 2.0, 13.0);
+    let eye = view.world_to_eye().transform_point3(at);
+    let camera = Mat4::from_cols_array(&attributes.world_to_camera.expect("there")).as_dmat4().transform_point3(at);
+    assert!((camera - eye * DVec3::new(1.0, 1.0, -1.0)).length() < 1e-4 && camera.z > 0.0);
+    let ndc = Mat4::from_cols_array(&attributes.world_to_normalized_device.expect("there")).as_dmat4();
+    let place: DVec4 = ndc * at.extend(1.0);
+    let texel = view.eye_to_texel(eye) / view.size().as_dvec2();
+    assert!((place.truncate().truncate() / place.w - texel).length() < 1e-5);
+    assert_eq!(channel.sample_data.value_by_flat_index(0), exr::Sample::F32(written.depths()[12 * 48 + 16]));
+}
+
+/// As another tool would write it: scan lines, no text of ours, the data window off the origin like the display window.
+fn foreign(view: &View, blocks: exr::Blocks, compression: exr::Compression) -> Vec<u8> {
+    let ours = encode_shadow_map(&map(view)).expect("written");
+    let meta = exr::MetaData::read_from_buffered(ours.as_slice(), true).expect("ours");
+    let size = exr::Vec2(view.size().x as usize, view.size().y as usize);
+    let depths = map(view).depths().to_vec();
+    let attributes = exr::LayerAttributes {
+        comments: Some(exr::Text::from("by hand")),
+        software_name: None,
+        layer_position: exr::Vec2(5, -7),
+        ..meta.headers[0].own_attributes.clone()
+    };
+    let channel = exr::AnyChannel::new("Z", exr::FlatSamples::F32(depths));
+    let encoding = exr::Encoding { compression, blocks, line_order: exr::LineOrder::Increasing };
+    let layer = exr::Layer::new(size, attributes, encoding, exr::AnyChannels::sort(std::iter::once(channel).collect()));
+    let window = exr::IntegerBounds::new(exr::Vec2(5, -7), size);
+    let image = exr::Image::new(exr::ImageAttributes::new(window), layer);
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    exr::WritableImage::write(&image).non_parallel().to_buffered(&mut bytes).expect("written");
+    bytes.into_inner()
+}
+
+#[test]
+fn foreign_files_are_read_from_their_matrices() {
+    use exr::{Blocks, Compression};
+    let ways = [
+        (Blocks::ScanLines, Compression::ZIP16),
+        (Blocks::ScanLines, Compression::ZIP1),
+        (Blocks::ScanLines, Compression::RLE),
+        (Blocks::ScanLines, Compression::Uncompressed),
+        (Blocks::Tiles(exr::Vec2(10, 17)), Compression::ZIP16),
+    ];
+    for (blocks, compression) in ways {
+        for view in [spot(UVec2::new(45, 33)), sun(UVec2::new(45, 33))] {
+            let read = decode_shadow_map(&foreign(&view, blocks, compression), DEFAULT_BUDGET).expect("read");
+            assert_eq!(bits(&read), bits(&map(&view)));
+            let found = *read.view();
+            assert_eq!((found.kind(), found.sampling(), found.cone()), (Kind::Axial, Sampling::Centre, None));
+            assert_eq!(found.rules(), &Rules::OPEN);
+            assert!(found.world_to_eye().abs_diff_eq(view.world_to_eye(), 1e-4));
+            let scale = |view: &View| match view.projection() {
+                Projection::Perspective { k } => k,
+                Projection::Orthographic { half } => half,
+            };
+            assert_eq!(found.is_perspective(), view.is_perspective());
+            assert!((scale(&found) / scale(&view) - 1.0).length() < 1e-5);
+            assert!((found.near() - view.near()).abs() < 1e-4 && (found.far() - view.far()).abs() < 1e-4);
+        }
+    }
+}
+
+#[test]
+fn foreign_files_without_what_a_map_needs_are_refused_by_name() {
+    use exr::{Blocks, Compression};
+    let refused = |compression, blocks, expected: &str| {
+        let fault = decode_shadow_map(&foreign(&spot(UVec2::splat(40)), blocks, compression), DEFAULT_BUDGET);
+        let message = fault.expect_err("refused").to_string();
+        assert!(message.contains(expected), "{message}");
+    };
+    for lossy in [Compression::PXR24, Compression::PIZ, Compression::B44] {
+        refused(lossy, Blocks::ScanLines, "compression is");
+    }
+    let pixels = [glam::Vec3::ONE; 4];
+    let picture = umbrage_io::encode_exr(UVec2::splat(2), &pixels).expect("written");
+    let message = decode_shadow_map(&picture, DEFAULT_BUDGET).expect_err("three channels").to_string();
+    assert_eq!(message, "channels is B, G, R: not the one channel Z");
+}
+
+#[test]
+fn maps_past_the_budget_are_refused_before_memory_is_taken() {
+    let huge = Raw::new(spot(UVec2::new(300, 200)), vec![f32::INFINITY; 60_000]).expect("valid");
+    let bytes = encode_shadow_map(&huge).expect("written");
+    assert!(decode_shadow_map(&bytes, 60_000).is_ok());
+    let message = decode_shadow_map(&bytes, 59_999).expect_err("too large").to_string();
+    assert_eq!(message, "displayWindow is 300 x 200: more than the allowed 59999 texels");
+}
+
+proptest! {
+    #[test]
+    fn r87_4_any_depths_and_view_survive(
+        width in 1u32..100, height in 1u32..100, fov in 0.01f64..3.1, near in 1e-3f64..10.0, reach in 0.1f64..1e6,
+        eye in (-1e5f64..1e5, -1e5f64..1e5, -1e5f64..1e5), seed in any::<u32>(), share in 0u32..9,
+    ) {
+        let size = UVec2::new(width, height);
+        let eye = DVec3::new(eye.0, eye.1, eye.2);
+        let view = View::perspective(eye, DVec3::new(0.1, 0.2, 0.3), DVec3::Y, fov, near, near + reach, size);
+        prop_assume!(view.is_ok());
+        let view = view.expect("checked").with_sampling(Sampling::Jittered { seed }).with_kind(Kind::Radial);
+        let depth = |index: u32| {
+            let bits = umbrage_plane::mix32(index ^ seed);
+            let depth = f32::from_bits(bits);
+            if bits % 9 < share && depth.is_finite() { depth } else { f32::INFINITY }
+        };
+        let written = Raw::new(view, (0..width * height).map(depth).collect()).expect("valid");
+        let read = again(&written);
+        prop_assert_eq!(bits(&read), bits(&written));
+        prop_assert_eq!(read.view(), written.view());
+    }
+}

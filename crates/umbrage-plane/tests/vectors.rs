@@ -1,0 +1,236 @@
+//! The published numbers of planes and projections: vectors V31, V35–V43 and V67, and the six places of C-10.
+
+use glam::{DVec2, DVec3, DVec4, IVec2, UVec2, Vec2, Vec3};
+use umbrage_plane::{Bias, Footprint, Kind, Rules, SurfacePoint, TexelRect, Verdict, View, Where};
+
+const P: Vec3 = Vec3::new(2.0, 1.0, -3.0);
+const N: DVec3 = DVec3::new(0.2, 1.0, 0.3);
+
+fn close(got: f64, want: f64, tolerance: f64) {
+    assert!((got - want).abs() <= tolerance, "got {got}, want {want} ± {tolerance}");
+}
+
+fn lamp(size: u32) -> View {
+    let eye = DVec3::new(0.0, 10.0, 0.0);
+    let fov = 90f64.to_radians();
+    View::perspective(eye, DVec3::ZERO, DVec3::NEG_Z, fov, 1.0, 100.0, UVec2::splat(size)).unwrap()
+}
+
+fn camera() -> View {
+    let eye = DVec3::new(0.0, 5.0, 10.0);
+    let fov = 60f64.to_radians();
+    View::perspective(eye, eye + DVec3::new(0.0, -0.4, -1.0), DVec3::Y, fov, 1.0, 100.0, UVec2::splat(512)).unwrap()
+}
+
+fn surface() -> SurfacePoint {
+    SurfacePoint::at(P, N.normalize().as_vec3())
+}
+
+#[test]
+fn v31_texel_width_on_the_map() {
+    let view = lamp(1024);
+    close(view.texel_world(10.0).x, 0.019_531_25, 1e-15);
+    // A half width of .5 world units at that depth is 25.6 texels.
+    close(0.5 / view.texel_world(10.0).x, 25.6, 1e-12);
+}
+
+#[test]
+fn v35_point_and_plane_in_light_space() {
+    let view = lamp(64);
+    let screen = view.world_to_screen() * P.as_dvec3().extend(1.0);
+    close(screen.x / screen.w, 0.222_222_222, 1e-9);
+    close(screen.y / screen.w, 0.333_333_333, 1e-9);
+    close(screen.z / screen.w, 0.897_867_565, 1e-9);
+    let receiver = view.receiver(&surface()).unwrap();
+    assert_eq!(receiver.depth, 9.0);
+    assert_eq!(receiver.footprint.centre.floor(), Vec2::new(39.0, 21.0));
+    // T_L = M⁻ᵀ T_W, and T_L · p = 0 (D-2); c_L is the plane at the light over B (D-3).
+    let plane = DVec4::new(0.2, 1.0, 0.3, -N.dot(P.as_dvec3()));
+    let in_light = view.world_to_screen().inverse().transpose() * plane;
+    for (got, want) in in_light.to_array().into_iter().zip([0.2, -0.3, -9.405, 8.5]) {
+        close(got, want, 1e-12);
+    }
+    close(in_light.dot(screen), 0.0, 1e-12);
+    close(-in_light.x / in_light.z, 0.021_265_284_4, 1e-10);
+    close(-in_light.y / in_light.z, -0.031_897_926_6, 1e-10);
+    close(-in_light.w / in_light.z, 0.903_774_588_0, 1e-10);
+}
+
+#[test]
+fn v36_virtual_depths_at_texel_centres() {
+    let expected = [
+        (38, 20, 0.896_630_781_5, 8.901_903_367_5),
+        (39, 20, 0.897_295_321_6, 8.954_344_624_4),
+        (39, 21, 0.898_292_131_8, 9.034_175_334_3),
+        (40, 21, 0.898_956_672_0, 9.088_191_330_3),
+        (47, 21, 0.903_608_453_0, 9.485_179_407_2),
+    ];
+    let axial = lamp(64);
+    let screen = axial.with_kind(Kind::Screen);
+    for (x, y, z, zeta) in expected {
+        let at = axial.sampling().position(IVec2::new(x, y));
+        close(f64::from(axial.receiver(&surface()).unwrap().plane(&axial).at(at)), zeta, 2e-6);
+        close(f64::from(screen.receiver(&surface()).unwrap().plane(&screen).at(at)), z, 2e-7);
+    }
+}
+
+#[test]
+fn v37_inverse_distance_is_affine_and_distance_is_not() {
+    let view = lamp(64);
+    let receiver = view.receiver(&surface()).unwrap();
+    let key = view.affine(receiver.eye, receiver.normal).unwrap();
+    close(-key.at(DVec2::new(38.5, 20.5)), 0.112_335_526_3, 1e-9);
+    close(-key.dx, -0.000_657_894_7, 1e-9);
+    let zeta = |x: f64| -1.0 / key.at(DVec2::new(x + 0.5, 21.5));
+    let linear = zeta(39.0) + 8.0 * 0.5 * (zeta(40.0) - zeta(38.0));
+    close(linear - zeta(47.0), -0.021_429_3, 1e-6);
+}
+
+#[test]
+fn v40_world_bias_in_screen_depth_d_8() {
+    // Ninety of a hundred lamps see the point at ζ = 9.3; moved .3 toward the light it stands at ζ = 9.
+    let view = lamp(64).with_kind(Kind::Screen);
+    let receiver = view.receiver(&SurfacePoint::at(Vec3::new(0.0, 0.7, 0.0), Vec3::Y)).unwrap();
+    let moved = f64::from(receiver.depth) - f64::from(receiver.nearer(&view, Bias::World(0.3)));
+    close(moved, 0.003_620_433_7, 1e-7);
+}
+
+#[test]
+fn v41_horizon_and_edge_on_d_5() {
+    let view = lamp(64).with_kind(Kind::Screen);
+    let through = SurfacePoint::at(Vec3::new(-2.0, 0.0, 0.0), DVec3::new(1.0, 0.05, 0.0).normalize().as_vec3());
+    let receiver = view.receiver(&through).unwrap();
+    let key = view.affine(receiver.eye, DVec3::new(1.0, 0.0, 0.05)).unwrap();
+    for (x_n, want) in [(-0.5, 0.22), (0.0, 0.02), (0.5, -0.18)] {
+        close(-key.at(DVec2::new((x_n + 1.0) * 32.0, 32.0)), want, 1e-12);
+    }
+    // Behind its own horizon a plane is farther than anything that is stored: shadow against any finite depth.
+    assert_eq!(receiver.plane(&view).at(DVec2::new(48.0, 32.0)), f32::INFINITY);
+    assert_eq!(view.affine(DVec3::new(0.0, 1.0, -9.0), DVec3::X), None);
+    let edge_on = view.receiver(&SurfacePoint::at(Vec3::new(0.0, 1.0, 0.0), Vec3::X)).unwrap();
+    assert_eq!(edge_on.plane(&view).at(DVec2::new(40.0, 3.0)), edge_on.depth);
+    assert_eq!(edge_on.slope, f32::INFINITY);
+}
+
+/// The corners of a camera pixel on the surface's tangent plane, exactly.
+fn pixel_region(camera: &View, x: u32, y: u32) -> SurfacePoint {
+    let eye = camera.world_to_eye().transform_point3(P.as_dvec3());
+    let key = camera.affine(eye, camera.world_to_eye().transform_vector3(N)).unwrap();
+    let on_plane = |dx: f64, dy: f64| {
+        let at = DVec2::new(f64::from(x) + dx, f64::from(y) + dy);
+        camera.world_at(at, key.at(at)).as_vec3()
+    };
+    let corners = [on_plane(0.0, 0.0), on_plane(1.0, 0.0), on_plane(1.0, 1.0), on_plane(0.0, 1.0)];
+    SurfacePoint { position: on_plane(0.5, 0.5), corners, ..surface() }
+}
+
+#[test]
+fn v42_pixel_footprint_exact_and_by_derivatives_d_7() {
+    let (camera, light) = (camera(), lamp(1024));
+    let at = camera.eye_to_texel(camera.world_to_eye().transform_point3(P.as_dvec3()));
+    close(at.x, 321.419_425_7, 1e-6);
+    close(at.y, 219.555_752_9, 1e-6);
+    let region = pixel_region(&camera, 321, 219);
+    let footprint = light.receiver(&region).unwrap().footprint;
+    close(f64::from(footprint.centre.x) / 1024.0, 0.611_286_218_7, 1e-6);
+    close(f64::from(footprint.centre.y) / 1024.0, 0.333_100_609_1, 1e-6);
+    close(f64::from(footprint.half.x), 1.180_915_4, 2e-4);
+    close(f64::from(footprint.half.y), 1.969_160_4, 2e-4);
+    close(f64::from(footprint.quad_share()), 0.621_014_7, 2e-4);
+    let derivative = light.derivative_footprint(&region).unwrap();
+    close(f64::from(derivative.half.x), 0.001_153_229_1 * 1024.0, 1e-3);
+    close(f64::from(derivative.half.y), 0.001_922_993_8 * 1024.0, 1e-3);
+    assert!((light.receiver(&region).unwrap().depth - 8.999_422_8).abs() < 1e-5);
+}
+
+#[test]
+fn v43_orthographic_plane() {
+    let eye = DVec3::new(0.0, 30.0, 0.0);
+    let view = View::orthographic(eye, DVec3::ZERO, DVec3::NEG_Z, 20.0, 0.0, 50.0, UVec2::splat(64)).unwrap();
+    let screen = view.with_kind(Kind::Screen);
+    let receiver = screen.receiver(&surface()).unwrap();
+    close(f64::from(receiver.depth), 0.58, 1e-7);
+    assert_eq!(view.receiver(&surface()).unwrap().depth, 29.0);
+    let key = view.affine(receiver.eye, receiver.normal).unwrap();
+    // ζ over the depth range is z_s; 32 texels are one unit of x_n.
+    close(key.dx * 32.0 / 50.0, 0.08, 1e-7);
+    close(-key.dy * 32.0 / 50.0, -0.12, 1e-7);
+}
+
+#[test]
+fn v67_effective_slope_and_cone_guarantee_d_15() {
+    let view = lamp(64);
+    let receiver = view.receiver(&surface()).unwrap();
+    close(f64::from(receiver.slope), 0.341_578_5, 1e-6);
+    let sigma = f64::from(receiver.slope);
+    let plane = view.affine(receiver.eye, receiver.normal).unwrap();
+    let centre = view.eye_to_texel(receiver.eye);
+    for step in 0..360 {
+        for radius in [0.1, 0.5, 1.0, 2.0, 3.0] {
+            let offset = DVec2::from_angle(f64::from(step).to_radians()) * radius / view.texel_world(9.0);
+            let drop = 9.0 + 1.0 / plane.at(centre + offset);
+            assert!(drop <= sigma * radius + 1e-6, "drop {drop} at radius {radius}");
+        }
+    }
+}
+
+#[test]
+fn c_10_places_and_rules() {
+    let view = lamp(64).with_rules(Rules::SPOT).with_cone(Some(1.0));
+    assert_eq!(view.receiver(&SurfacePoint::at(Vec3::new(0.0, 11.0, 0.0), Vec3::Y)), Err(Where::Behind));
+    assert_eq!(view.locate(Vec2::new(-0.001, 5.0)), Where::Outside);
+    assert_eq!(view.locate(Vec2::new(64.0, 5.0)), Where::Outside);
+    assert_eq!(view.locate(Vec2::new(1.0, 1.0)), Where::BeyondCone);
+    assert_eq!(view.locate(Vec2::new(32.0, 1.0)), Where::Inside);
+    assert_eq!(view.locate(Vec2::NAN), Where::Outside);
+    // Near and far still compare unless the rules say otherwise (T-18).
+    let below_far = SurfacePoint::at(Vec3::new(0.0, -200.0, 0.0), Vec3::Y);
+    let before_near = SurfacePoint::at(Vec3::new(0.0, 9.5, 0.0), Vec3::Y);
+    assert!(view.receiver(&below_far).is_ok() && view.receiver(&before_near).is_ok());
+    let strict = view.with_rules(Rules::VOLUME);
+    assert_eq!(strict.receiver(&below_far), Err(Where::Far));
+    assert_eq!(strict.receiver(&before_near), Err(Where::Near));
+    assert_eq!(Rules::SPOT.verdict(Where::BeyondCone), Verdict::Shadowed);
+    assert_eq!(Rules::OPEN.verdict(Where::Outside), Verdict::Lit);
+    assert_eq!(Rules::OPEN.verdict(Where::Inside), Verdict::Compare);
+}
+
+#[test]
+fn c_12_texels_need_not_be_square() {
+    let view = lamp(64).with_size(UVec2::new(128, 32)).unwrap();
+    assert!(view.texel_world(8.0).abs_diff_eq(DVec2::new(0.125, 0.5), 1e-15));
+    let receiver = view.receiver(&surface()).unwrap();
+    close(f64::from(receiver.footprint.centre.x), 2.0 * 39.111_111_1, 1e-5);
+    close(f64::from(receiver.footprint.centre.y), 0.5 * 21.333_333_3, 1e-5);
+}
+
+#[test]
+fn e_r15_corners_behind_the_light_are_cut_off() {
+    let view = lamp(64);
+    let corners = [(-30.0, 30.0), (30.0, 30.0), (30.0, 5.0), (-30.0, 5.0)].map(|(x, y)| Vec3::new(x, y, -1.0));
+    let region = SurfacePoint { position: Vec3::new(0.0, 9.0, -1.0), corners, ..surface() };
+    let footprint = view.receiver(&region).unwrap().footprint;
+    assert!(footprint.centre.is_finite() && footprint.half.max_element() <= 16.0, "{footprint:?}");
+}
+
+#[test]
+fn footprints_scale_about_their_centre_and_keep_their_minimum() {
+    let thin = Footprint::boxed(Vec2::splat(8.0), Vec2::new(2.0, 0.0));
+    let scaled = thin.scaled(3.0, 1.0, Vec2::splat(100.0));
+    assert_eq!((scaled.half, scaled.corners[2]), (Vec2::new(6.0, 1.0), Vec2::new(14.0, 9.0)));
+    assert_eq!(Footprint::point(Vec2::ONE).scaled(3.0, 0.0, Vec2::splat(9.0)), Footprint::point(Vec2::ONE));
+    assert_eq!(TexelRect::around(Vec2::splat(1.5), Vec2::splat(1.25)), TexelRect::new(IVec2::ZERO, IVec2::splat(3)));
+}
+
+#[test]
+fn views_refuse_what_they_cannot_mean() {
+    let make = |fov, near, far, side| {
+        View::perspective(DVec3::Y, DVec3::ZERO, DVec3::X, fov, near, far, UVec2::splat(side))
+            .map_err(|e| e.to_string())
+    };
+    assert!(make(1.0, 1.0, 2.0, 1).is_ok());
+    for bad in [make(1.0, 0.0, 2.0, 1), make(1.0, 2.0, 1.0, 1), make(4.0, 1.0, 2.0, 1), make(1.0, 1.0, 2.0, 0)] {
+        assert!(bad.is_err());
+    }
+    assert!(View::perspective(DVec3::Y, DVec3::ZERO, DVec3::Y, 1.0, 1.0, 2.0, UVec2::ONE).is_err());
+}

@@ -1,0 +1,172 @@
+//! Triangles sorted into tiles.
+
+use crate::coverage::{Coverage, Samples};
+use crate::setup::{Piece, SUBTEXELS, Setup, sampled};
+use crate::{Cull, Stats, TILE, Triangle};
+use glam::{IVec2, UVec2};
+use umbrage_plane::{Facet, Sampling, TexelRect, View};
+
+const SIDE: i32 = TILE as i32;
+
+/// Triangles sorted into the tiles of a view.
+///
+/// Tile (i, j) holds texels 32 i ≤ x < 32 (i + 1), 32 j ≤ y < 32 (j + 1), whatever the window. About 64 bytes a triangle kept, and 4 for each tile it reaches.
+#[derive(Clone, Debug)]
+pub struct Bins {
+    sampling: Sampling,
+    window: TexelRect,
+    tiles: UVec2,
+    pieces: Vec<Piece>,
+    /// Corners of all pieces, in 1/256 texel.
+    corners: Vec<IVec2>,
+    /// Where each tile's list begins in `lists`; one entry more than tiles.
+    starts: Vec<usize>,
+    /// Indices into `pieces`, ascending within a tile.
+    lists: Vec<u32>,
+    stats: Stats,
+}
+
+impl Bins {
+    /// Projects, cuts, snaps and sorts `triangles`; at most 2²⁸ of them (indices are 32 bits wide).
+    ///
+    /// Only texels inside `window` (in texels; what of it is outside the view's rectangle is ignored) are ever covered. An empty window gives
+    /// bins without a facet. Perspective triangles are cut at 1/1024 of the near distance, not at the near plane: what is between
+    /// is kept with its true key, and counted in [`Stats::before_near`] (C-10). Orthographic ones are not cut in depth at all.
+    pub fn new(view: &View, window: TexelRect, cull: Cull, triangles: impl IntoIterator<Item = Triangle>) -> Self {
+        let window = TexelRect::of_size(view.size()).intersect(window);
+        let mut setup = Setup::new(view, window, cull);
+        for triangle in triangles {
+            setup.add(&triangle);
+        }
+        let Setup { pieces, corners, stats, .. } = setup;
+        let sampling = view.sampling();
+        let mut bins = Self {
+            sampling,
+            window,
+            tiles: view.size().map(|side| side.div_ceil(TILE)),
+            pieces,
+            corners,
+            starts: Vec::new(),
+            lists: Vec::new(),
+            stats,
+        };
+        bins.sort();
+        bins
+    }
+
+    /// Number of tiles across and down: the view's size over [`TILE`], rounded up.
+    pub fn tiles(&self) -> UVec2 {
+        self.tiles
+    }
+
+    /// Calls `sink` for each facet that covers a texel of the tile, in the order of the triangles. A tile outside [`Bins::tiles`] has none.
+    ///
+    /// The facet's key is exact on the triangle's plane. Only where the plane is so edge-on that 1/256 texel leads out of the triangle's range of
+    /// keys, it is the mean of its corners' keys everywhere. Keys nearer than the near plane are not clamped here.
+    pub fn tile(&self, tile: UVec2, mut sink: impl FnMut(&Facet, &Coverage)) {
+        let list = self.list(tile);
+        if list.is_empty() {
+            return;
+        }
+        let Some(samples) = Samples::of(tile, self.window, self.sampling) else { return };
+        for &index in list {
+            let piece = &self.pieces[index as usize];
+            if let Some(coverage) = samples.inside(piece.corners(&self.corners)) {
+                sink(&piece.facet(), &coverage);
+            }
+        }
+    }
+
+    /// True when surely no facet covers a texel of the tile. Tiles of which it is false may still turn out to be bare.
+    pub fn is_empty_tile(&self, tile: UVec2) -> bool {
+        self.list(tile).is_empty()
+    }
+
+    /// All facets that were kept, in the order of their triangles; some may cover no texel.
+    pub fn facets(&self) -> impl ExactSizeIterator<Item = Facet> + '_ {
+        self.pieces.iter().map(Piece::facet)
+    }
+
+    /// The facet of the triangle with that index, 0-based among all given; `None` when it was skipped, culled or out of sight.
+    pub fn facet(&self, triangle: u32) -> Option<Facet> {
+        let index = self.pieces.binary_search_by_key(&triangle, Piece::triangle).ok()?;
+        Some(self.pieces[index].facet())
+    }
+
+    /// Counts.
+    pub fn stats(&self) -> Stats {
+        self.stats
+    }
+
+    fn list(&self, tile: UVec2) -> &[u32] {
+        if tile.cmpge(self.tiles).any() {
+            return &[];
+        }
+        let index = tile.y as usize * self.tiles.x as usize + tile.x as usize;
+        &self.lists[self.starts[index]..self.starts[index + 1]]
+    }
+
+    /// Makes the lists: counts, adds up, fills.
+    fn sort(&mut self) {
+        let tiles = self.tiles.x as usize * self.tiles.y as usize;
+        let mut starts = vec![0_usize; tiles + 1];
+        for piece in &self.pieces {
+            self.each_tile(piece, |tile| starts[tile + 1] += 1);
+        }
+        for tile in 0..tiles {
+            starts[tile + 1] += starts[tile];
+        }
+        let mut lists = vec![0; starts[tiles]];
+        let mut ends = starts.clone();
+        for (index, piece) in self.pieces.iter().enumerate() {
+            self.each_tile(piece, |tile| {
+                lists[ends[tile]] = index as u32;
+                ends[tile] += 1;
+            });
+        }
+        self.starts = starts;
+        self.lists = lists;
+    }
+
+    /// Calls `each` with the index of every tile that the piece may cover.
+    fn each_tile(&self, piece: &Piece, mut each: impl FnMut(usize)) {
+        let corners = piece.corners(&self.corners);
+        let texels = sampled(self.sampling, corners).intersect(self.window);
+        let (first, last) = (texels.min.map(|v| v / SIDE), texels.max.map(|v| (v - 1) / SIDE));
+        let narrow = last.x - first.x < 2 || last.y == first.y;
+        for row in first.y..=last.y {
+            let (mut from, mut to) = (first.x, last.x);
+            if !narrow {
+                let (left, right) = extent(corners, row * SIDE * SUBTEXELS, (row + 1) * SIDE * SUBTEXELS);
+                from = from.max(left.div_euclid(SIDE * SUBTEXELS));
+                to = to.min(right.div_euclid(SIDE * SUBTEXELS));
+            }
+            let start = row as usize * self.tiles.x as usize;
+            for column in from..=to {
+                each(start + column as usize);
+            }
+        }
+    }
+}
+
+/// Encloses x of what of the outline lies between two heights (inclusive), in 1/256 texel; (`i32::MAX`, `i32::MIN`) when nothing does.
+fn extent(corners: &[IVec2], top: i32, bottom: i32) -> (i32, i32) {
+    let (mut left, mut right) = (i32::MAX, i32::MIN);
+    for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
+        if a.y > bottom || b.y < top {
+            continue;
+        }
+        let (dx, dy) = (i64::from(b.x - a.x), i64::from(b.y - a.y));
+        for y in [a.y.max(top), b.y.min(bottom)] {
+            let x = if dy == 0 { i64::from(a.x) } else { i64::from(a.x) + (dx * i64::from(y - a.y)).div_euclid(dy) };
+            left = left.min(x as i32);
+            right = right.max(x as i32 + 1);
+        }
+        if dy == 0 {
+            left = left.min(b.x);
+            right = right.max(b.x);
+        }
+    }
+    (left, right)
+}

@@ -1,0 +1,202 @@
+//! Which samples of a tile lie inside a polygon, exactly.
+//!
+//! A sample is inside when a ray to its right crosses the outline an odd number of times. An edge from (a_x, a_y) down to (b_x, b_y) is crossed
+//! when a_y ≤ y < b_y and its crossing lies strictly to the right. For a triangle this is the top-left rule. Each edge's part is a function
+//! of its two ends alone, so two polygons that share an edge never both claim a sample on it, and never both leave it.
+
+use crate::TILE;
+use crate::setup::{SUBTEXELS, sampled};
+use glam::{IVec2, UVec2};
+use std::ops::Range;
+use umbrage_plane::{Sampling, TexelRect};
+
+const SIDE: i32 = TILE as i32;
+
+/// The texels of one tile that a facet covers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Coverage {
+    /// Bit x of row y: texel (x, y) of the tile is covered.
+    pub rows: [u32; 32],
+    /// First row with a bit set.
+    pub first: u8,
+    /// One past the last row with a bit set.
+    pub end: u8,
+}
+
+impl Coverage {
+    /// From rows of which only those of `within` may have a bit set; `None` when none has.
+    fn new(rows: [u32; 32], within: Range<i32>) -> Option<Self> {
+        let first = within.clone().find(|&row| rows[row as usize] != 0)?;
+        let last = within.rev().find(|&row| rows[row as usize] != 0)?;
+        Some(Self { rows, first: first as u8, end: last as u8 + 1 })
+    }
+}
+
+/// An edge relative to a tile's upper left corner, in 1/256 texel, from its upper end downward. Horizontal edges are crossed by no ray.
+struct Edge {
+    top: IVec2,
+    bottom: IVec2,
+}
+
+impl Edge {
+    /// The direction, in wider numbers: components are below 2³⁰ in size, products with offsets inside a tile's row below 2⁶¹.
+    fn along(&self) -> (i64, i64) {
+        let along = (self.bottom - self.top).as_i64vec2();
+        (along.x, along.y)
+    }
+
+    /// Positive when the crossing at the height of (x, y) lies to the right of it: the distance times the edge's height.
+    fn ahead(&self, x: i32, y: i32) -> i64 {
+        let (dx, dy) = self.along();
+        dx * i64::from(y - self.top.y) - dy * i64::from(x - self.top.x)
+    }
+}
+
+/// A tile's samples.
+pub(crate) struct Samples {
+    /// The tile's upper left corner, in texels.
+    origin: IVec2,
+    /// Columns (as a mask) and rows of the tile that are inside the window.
+    columns: u32,
+    rows: Range<i32>,
+    sampling: Sampling,
+    /// Jittered samples' offsets in their texels, row by row; empty when they are at the centres.
+    offsets: Vec<[u8; 2]>,
+}
+
+impl Samples {
+    /// The samples of a tile that lie in `window`; `None` when there are none.
+    pub fn of(tile: UVec2, window: TexelRect, sampling: Sampling) -> Option<Self> {
+        let origin = (tile * TILE).as_ivec2();
+        let inside = TexelRect::new(origin, origin + SIDE).intersect(window);
+        if inside.is_empty() {
+            return None;
+        }
+        let (low, high) = (inside.min - origin, inside.max - origin);
+        let offsets = match sampling {
+            Sampling::Centre => Vec::new(),
+            Sampling::Jittered { .. } => TexelRect::new(origin, origin + SIDE)
+                .texels()
+                .map(|texel| sampling.offset_256(texel).to_array().map(|offset| offset as u8))
+                .collect(),
+        };
+        Some(Self { origin, columns: below(high.x) & !below(low.x), rows: low.y..high.y, sampling, offsets })
+    }
+
+    /// The samples inside a polygon; `None` when there are none.
+    pub fn inside(&self, corners: &[IVec2]) -> Option<Coverage> {
+        match self.sampling {
+            Sampling::Centre => self.centres(corners),
+            Sampling::Jittered { .. } => self.jittered(corners),
+        }
+    }
+
+    fn edges<'a>(&self, corners: &'a [IVec2]) -> impl Iterator<Item = Edge> + use<'a> {
+        let origin = self.origin * SUBTEXELS;
+        let ends = corners.iter().zip(corners.iter().cycle().skip(1));
+        ends.map(move |(&a, &b)| {
+            let (top, bottom) = if a.y <= b.y { (a, b) } else { (b, a) };
+            Edge { top: top - origin, bottom: bottom - origin }
+        })
+    }
+
+    fn centres(&self, corners: &[IVec2]) -> Option<Coverage> {
+        let mut rows = [0; 32];
+        let (mut first, mut end) = (SIDE, 0);
+        for edge in self.edges(corners) {
+            // Row r's samples are at 256 r + 128: those from ⌈(top − 128) / 256⌉ on are not above the top.
+            let from = ((edge.top.y + 127) >> 8).max(self.rows.start);
+            let to = ((edge.bottom.y + 127) >> 8).min(self.rows.end);
+            if from < to {
+                cross_rows(&edge, from, &mut rows[from as usize..to as usize]);
+                first = first.min(from);
+                end = end.max(to);
+            }
+        }
+        let within = first..end.max(first);
+        for row in within.clone() {
+            rows[row as usize] &= self.columns;
+        }
+        Coverage::new(rows, within)
+    }
+
+    fn jittered(&self, corners: &[IVec2]) -> Option<Coverage> {
+        let touched = sampled(self.sampling, corners);
+        let (low, high) = (touched.min - self.origin, touched.max - self.origin);
+        let columns = below(high.x) & !below(low.x) & self.columns;
+        let within = low.y.max(self.rows.start)..high.y.min(self.rows.end);
+        if columns == 0 || within.is_empty() {
+            return None;
+        }
+        let mut rows = [0; 32];
+        for edge in self.edges(corners) {
+            for row in within.clone() {
+                rows[row as usize] ^= self.cross_jittered_row(&edge, row, columns);
+            }
+        }
+        Coverage::new(rows, within)
+    }
+
+    /// The columns of a row, among `columns` (not 0), from whose samples the edge is crossed.
+    fn cross_jittered_row(&self, edge: &Edge, row: i32, columns: u32) -> u32 {
+        let (top, left) = (row * SUBTEXELS, columns.trailing_zeros() as i32 * SUBTEXELS);
+        let (bottom, right) = (top + SUBTEXELS - 1, (SIDE - columns.leading_zeros() as i32) * SUBTEXELS - 1);
+        if edge.bottom.y <= top || edge.top.y > bottom {
+            return 0;
+        }
+        if edge.ahead(left, top).max(edge.ahead(left, bottom)) <= 0 {
+            return 0;
+        }
+        if edge.top.y <= top && edge.bottom.y > bottom && edge.ahead(right, top).min(edge.ahead(right, bottom)) > 0 {
+            return columns;
+        }
+        let offsets = &self.offsets[(row * SIDE) as usize..][..SIDE as usize];
+        let first = columns.trailing_zeros() as usize;
+        let last = SIDE as usize - columns.leading_zeros() as usize;
+        let mut crossed = 0;
+        for (column, [x, y]) in offsets.iter().enumerate().take(last).skip(first) {
+            let (x, y) = (column as i32 * SUBTEXELS + i32::from(*x), top + i32::from(*y));
+            let hit = (edge.top.y..edge.bottom.y).contains(&y) && edge.ahead(x, y) > 0;
+            crossed |= u32::from(hit) << column;
+        }
+        crossed & columns
+    }
+}
+
+/// A mask of the first `count` columns; none for a negative count, all for one above 32.
+#[inline(always)]
+fn below(count: i32) -> u32 {
+    ((1_u64 << count.clamp(0, SIDE)) - 1) as u32
+}
+
+/// Crosses an edge in consecutive rows, the first of which is row `from` of the tile: flips the columns whose centre is to the left of the crossing.
+fn cross_rows(edge: &Edge, from: i32, rows: &mut [u32]) {
+    let (dx, dy) = edge.along();
+    // Column c is to the left while c · dy · 256 < ahead, ahead taken at column 0.
+    let step = dx * i64::from(SUBTEXELS);
+    let width = dy * i64::from(SUBTEXELS);
+    let start = edge.ahead(SUBTEXELS / 2, from * SUBTEXELS + SUBTEXELS / 2);
+    let stop = start + step * (rows.len() as i64 - 1);
+    if start.max(stop) <= 0 {
+        return;
+    }
+    if start.min(stop) > width * i64::from(SIDE - 1) {
+        for row in rows {
+            *row ^= u32::MAX;
+        }
+        return;
+    }
+    // ⌈ahead / width⌉ of each row, by quotient and remainder: exact, and two divisions for all rows.
+    let upward = start + width - 1;
+    let (mut quotient, mut remainder) = (upward.div_euclid(width), upward.rem_euclid(width));
+    let (more, rest) = if rows.len() > 1 { (step.div_euclid(width), step.rem_euclid(width)) } else { (0, 0) };
+    for row in rows {
+        *row ^= below(quotient.clamp(0, i64::from(SIDE)) as i32);
+        quotient += more;
+        remainder += rest;
+        if remainder >= width {
+            quotient += 1;
+            remainder -= width;
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! What the rasteriser promises, checked against naive exact arithmetic and ray casting.
+
+mod depth;
+mod input;
+mod meshes;
+mod near;
+mod oracle;
+mod scenes;
+mod tiles;
+mod triangles;

@@ -1,0 +1,96 @@
+//! Windows, the order of calls, threads: nothing of that changes a bit (design decisions 1 and 2).
+
+use crate::oracle::{Camera, bins, each_in_tile};
+use crate::scenes::{ball, samplings, sizes, turns};
+use glam::{DVec3, IVec2, Quat, UVec2, Vec3};
+use proptest::prelude::*;
+use umbrage_plane::{Facet, Sampling, TexelRect, View};
+use umbrage_raster::{Bins, Coverage, Cull, Triangle};
+
+fn camera(size: UVec2) -> View {
+    Camera::new(DVec3::new(1.0, 2.0, 6.0), DVec3::ZERO, 0.5, true, size).view(1.0, 100.0)
+}
+
+fn bumpy(turn: Quat) -> Vec<Triangle> {
+    ball(Vec3::ZERO, &[2.0, 1.2, 2.6, 0.7, 1.9], 9, 11, turn)
+}
+
+type Tile = Vec<(Facet, Coverage)>;
+
+fn tile(bins: &Bins, index: u32) -> Tile {
+    let mut found = Vec::new();
+    let across = bins.tiles().x;
+    bins.tile(UVec2::new(index % across, index / across), |facet, coverage| found.push((*facet, *coverage)));
+    found
+}
+
+fn texels(bins: &Bins) -> Vec<(u32, i32, i32)> {
+    let tiles = bins.tiles();
+    let mut found = Vec::new();
+    for index in 0..tiles.x * tiles.y {
+        let tile = UVec2::new(index % tiles.x, index / tiles.x);
+        each_in_tile(bins, tile, |texel, facet| found.push((facet.triangle, texel.y, texel.x)));
+    }
+    found.sort_unstable();
+    found
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn windows_add_up_to_the_whole(
+        size in sizes(), sampling in samplings(), turn in turns(), cut in (0.0_f64..1.0, 0.0_f64..1.0),
+    ) {
+        let view = camera(size).with_sampling(sampling);
+        let whole = bins(&view, bumpy(turn));
+        let at = (size.as_dvec2() * DVec3::new(cut.0, cut.1, 0.0).truncate()).as_ivec2();
+        let low = IVec2::splat(-7);
+        let high = size.as_ivec2() + 9;
+        let windows = [
+            TexelRect::new(low, at),
+            TexelRect::new(IVec2::new(at.x, low.y), IVec2::new(high.x, at.y)),
+            TexelRect::new(IVec2::new(low.x, at.y), IVec2::new(at.x, high.y)),
+            TexelRect::new(at, high),
+        ];
+        let mut parts = Vec::new();
+        for window in windows {
+            let part = Bins::new(&view, window, Cull::None, bumpy(turn));
+            prop_assert_eq!(part.tiles(), whole.tiles());
+            for (triangle, y, x) in texels(&part) {
+                prop_assert!(window.contains(IVec2::new(x, y)));
+                prop_assert_eq!(part.facet(triangle), whole.facet(triangle));
+                parts.push((triangle, y, x));
+            }
+        }
+        parts.sort_unstable();
+        prop_assert_eq!(parts, texels(&whole));
+    }
+}
+
+#[test]
+fn no_order_of_calls_and_no_thread_changes_a_tile() {
+    for sampling in [Sampling::Centre, Sampling::Jittered { seed: 77 }] {
+        let view = camera(UVec2::new(193, 131)).with_sampling(sampling);
+        let bins = bins(&view, bumpy(Quat::from_rotation_x(0.4)));
+        let count = bins.tiles().x * bins.tiles().y;
+        let ordered: Vec<Tile> = (0..count).map(|index| tile(&bins, index)).collect();
+        assert!(ordered.iter().map(Vec::len).sum::<usize>() > 100);
+        // 35 tiles: 11 is prime to them, so every tile comes up once.
+        for step in 0..count {
+            let index = step * 11 % count;
+            assert_eq!(tile(&bins, index), ordered[index as usize]);
+        }
+        std::thread::scope(|scope| {
+            for start in 0..4 {
+                let (bins, ordered) = (&bins, &ordered);
+                scope.spawn(move || {
+                    for step in 0..count {
+                        let index = (start * 9 + step) % count;
+                        assert_eq!(tile(bins, index), ordered[index as usize]);
+                    }
+                });
+            }
+        });
+    }
+}

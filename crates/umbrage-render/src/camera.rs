@@ -1,0 +1,172 @@
+use crate::Soup;
+use crate::pass1::each_fragment;
+use glam::{DVec2, IVec2, UVec2, Vec3};
+use umbrage_plane::{Facet, SurfacePoint, View};
+use umbrage_raster::{Bins, TILE};
+
+/// A piece of one surface within one pixel: what is shaded once (R87-8).
+pub(crate) struct Region {
+    /// Where and how large it is; its normal is the geometric one on the visible side.
+    pub point: SurfacePoint,
+    /// Interpolated normal on the visible side.
+    pub shading_normal: Vec3,
+    /// Share of the pixel's samples.
+    pub share: f32,
+    /// Index of the pixel within its tile.
+    pub pixel: u32,
+    /// Distance along the camera's axis.
+    pub zeta: f32,
+}
+
+/// One sample of a pixel: the key that won and the facet (index into the tile's list).
+#[derive(Clone, Copy)]
+struct Sample {
+    key: f32,
+    facet: u32,
+}
+
+const NONE: Sample = Sample { key: f32::INFINITY, facet: u32::MAX };
+
+/// The camera's pass over one tile of samples: visible surfaces, gathered into regions pixel by pixel.
+///
+/// `view` is the camera with `axis` × `axis` texels a pixel.
+pub(crate) struct Gather<'a> {
+    pub soup: &'a Soup<'a>,
+    pub bins: &'a Bins,
+    pub view: &'a View,
+    pub axis: u32,
+    /// One region a sample instead of one a surface.
+    pub every_sample: bool,
+    /// Pixels across the picture.
+    pub width: u32,
+}
+
+impl Gather<'_> {
+    /// The regions of a tile in pixel order, and the number of fragments met.
+    pub fn tile(&self, tile: UVec2) -> (Vec<Region>, u64) {
+        let origin = (tile * TILE).as_ivec2();
+        let mut facets: Vec<Facet> = Vec::new();
+        let mut samples = vec![NONE; (TILE * TILE) as usize];
+        let mut fragments = 0;
+        self.bins.tile(tile, |facet, coverage| {
+            let index = facets.len() as u32;
+            facets.push(*facet);
+            each_fragment(self.view, origin, facet, coverage, |cell, key, _| {
+                fragments += 1;
+                // Facets come in the order of their triangles: at equal keys the first stays.
+                if key < samples[cell].key {
+                    samples[cell] = Sample { key, facet: index };
+                }
+            });
+        });
+        let mut regions = Vec::new();
+        if !facets.is_empty() {
+            let across = TILE / self.axis;
+            for pixel in 0..across * across {
+                let corner = UVec2::new(pixel % across, pixel / across) * self.axis;
+                self.pixel(origin, corner, pixel, &samples, &facets, &mut regions);
+            }
+        }
+        (regions, fragments)
+    }
+
+    fn pixel(
+        &self,
+        origin: IVec2,
+        corner: UVec2,
+        pixel: u32,
+        samples: &[Sample],
+        facets: &[Facet],
+        regions: &mut Vec<Region>,
+    ) {
+        let mut groups: Vec<(Surface, Vec<(DVec2, u32)>)> = Vec::new();
+        for i in 0..self.axis * self.axis {
+            let at = corner + UVec2::new(i % self.axis, i / self.axis);
+            let sample = samples[(at.y * TILE + at.x) as usize];
+            let Some(facet) = facets.get(sample.facet as usize) else { continue };
+            let position = self.view.sampling().position(origin + at.as_ivec2());
+            let surface = Surface::of(self.soup, facet, position);
+            let group = groups.iter_mut().find(|(known, _)| *known == surface && !self.every_sample);
+            match group {
+                Some((_, members)) => members.push((position, sample.facet)),
+                None => groups.push((surface, vec![(position, sample.facet)])),
+            }
+        }
+        let middle = (origin.as_dvec2() + corner.as_dvec2()) + f64::from(self.axis) * 0.5;
+        let place = (origin / self.axis as i32).as_uvec2() + corner / self.axis;
+        let name = (place.y * self.width + place.x).wrapping_mul(64);
+        let all = (self.axis * self.axis) as usize;
+        for (index, (surface, members)) in groups.iter().enumerate() {
+            let centre = if members.len() == all && !self.every_sample {
+                middle
+            } else {
+                members.iter().map(|(position, _)| *position).sum::<DVec2>() / members.len() as f64
+            };
+            let share = members.len() as f32 / all as f32;
+            let nearest = members.iter().min_by(|a, b| {
+                let distance = |(position, _): &(DVec2, u32)| position.distance_squared(centre);
+                distance(a).total_cmp(&distance(b))
+            });
+            if let Some(&(position, facet)) = nearest {
+                let mut region = self.region(&facets[facet as usize], surface.front, centre, position);
+                region.point.region = name.wrapping_add(index as u32);
+                regions.push(Region { share, pixel, ..region });
+            }
+        }
+    }
+
+    /// The region around `centre` (sample space) on a facet's plane; `sample` is where that facet was surely hit.
+    fn region(&self, facet: &Facet, front: bool, centre: DVec2, sample: DVec2) -> Region {
+        let hit = facet.plane.at(sample);
+        let spread = if self.view.is_perspective() { 0.5 * hit.abs() } else { f64::INFINITY };
+        let extrapolated = facet.plane.at(centre);
+        let (centre, key) = if (extrapolated - hit).abs() <= spread { (centre, extrapolated) } else { (sample, hit) };
+        let reach = if self.view.is_perspective() { 0.75 * key.abs() } else { f64::INFINITY };
+        let half = f64::from(self.axis) * 0.5;
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| {
+            let corner = centre + DVec2::new(x, y) * half;
+            self.view.world_at(corner, facet.plane.at(corner).clamp(key - reach, key + reach)).as_vec3()
+        });
+        let position = self.view.world_at(centre, key);
+        let (triangle, normals) = self.soup.corners(facet.triangle);
+        let side = if front { 1.0 } else { -1.0 };
+        let edge = [triangle[1] - triangle[0], triangle[2] - triangle[0]].map(|edge| edge.as_dvec3());
+        let normal = edge[0].cross(edge[1]).normalize_or(glam::DVec3::Z) * side;
+        let position = position.as_vec3();
+        Region {
+            point: SurfacePoint { position, normal: normal.as_vec3(), corners, region: 0, object: facet.object },
+            shading_normal: interpolate(position, triangle, normals) * side as f32,
+            share: 0.0,
+            pixel: 0,
+            zeta: if self.view.is_perspective() { -1.0 / key } else { key } as f32,
+        }
+    }
+}
+
+/// What samples have in common that are shaded together.
+#[derive(PartialEq, Eq)]
+struct Surface {
+    object: u32,
+    surface: u32,
+    front: bool,
+}
+
+impl Surface {
+    fn of(soup: &Soup, facet: &Facet, at: DVec2) -> Self {
+        Self { object: facet.object, surface: soup.surface(facet.triangle), front: facet.facing.is_front(at) }
+    }
+}
+
+/// The shading normal at a point of a triangle's plane; barycentric weights are clamped to the triangle.
+fn interpolate(at: Vec3, [a, b, c]: [Vec3; 3], [na, nb, nc]: [Vec3; 3]) -> Vec3 {
+    let (ab, ac, ap) = (b - a, c - a, at - a);
+    let (d00, d01, d11) = (ab.dot(ab), ab.dot(ac), ac.dot(ac));
+    let (d20, d21) = (ap.dot(ab), ap.dot(ac));
+    let area = d00 * d11 - d01 * d01;
+    if area <= 0.0 {
+        return na;
+    }
+    let v = ((d11 * d20 - d01 * d21) / area).clamp(0.0, 1.0);
+    let w = ((d00 * d21 - d01 * d20) / area).clamp(0.0, 1.0 - v);
+    (na * (1.0 - v - w) + nb * v + nc * w).normalize_or(na)
+}

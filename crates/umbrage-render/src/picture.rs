@@ -1,0 +1,236 @@
+use crate::Soup;
+use crate::camera::{Gather, Region};
+use crate::shade::shade;
+use glam::{UVec2, Vec3};
+use rayon::prelude::*;
+use umbrage_plane::{Sampling, SurfacePoint, TexelRect, View};
+use umbrage_raster::{Bins, Cull, TILE};
+use umbrage_sample::Key;
+use umbrage_scene::Scene;
+use umbrage_shadow::Shadow;
+
+/// How the camera's picture is sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// Visibility samples a pixel along each axis: 1, 2, 4 or 8 (other values count as the next lower of these).
+    pub axis: u32,
+    /// Samples jittered within their cells instead of at cell centres.
+    pub stochastic: bool,
+    /// Shades every sample by itself instead of once per surface and pixel: slow, and what truth is made with.
+    pub every_sample: bool,
+    /// Seed of the camera's jitter and of the shadows' keys.
+    pub seed: u32,
+    /// Number of the frame (R87-25): another frame, other random numbers. Keep it constant for static noise.
+    pub number: u32,
+}
+
+impl Default for Frame {
+    /// 16 stochastic samples a pixel, shaded once per surface.
+    fn default() -> Self {
+        Self { axis: 4, stochastic: true, every_sample: false, seed: 0, number: 0 }
+    }
+}
+
+impl Frame {
+    /// One sample at each pixel's centre.
+    pub const CENTRES: Self = Self { axis: 1, stochastic: false, every_sample: false, seed: 0, number: 0 };
+
+    /// The camera with this frame's samples as its texels.
+    pub fn sample_view(&self, camera: &View) -> View {
+        let axis = self.axis();
+        let sampling = if self.stochastic {
+            Sampling::Jittered { seed: self.seed ^ self.number.rotate_left(16) }
+        } else {
+            Sampling::Centre
+        };
+        let view = camera.with_size(camera.size() * axis).unwrap_or(*camera);
+        view.with_sampling(sampling)
+    }
+
+    fn axis(&self) -> u32 {
+        let wanted = self.axis.clamp(1, 8);
+        1 << wanted.ilog2()
+    }
+}
+
+/// No object: the background.
+pub const NOTHING: u32 = u32::MAX;
+
+/// A finished picture and what is known about each pixel; all rows from the top, linear light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Pixels across and down.
+    pub size: UVec2,
+    /// Linear RGB.
+    pub colour: Vec<Vec3>,
+    /// Per light: the fraction in shadow, 0 where nothing is seen (the shadow component alone).
+    pub shadow: Vec<Vec<f32>>,
+    /// Per light: cosine between geometric normal and light, averaged over the pixel; 0 where nothing is seen.
+    pub facing: Vec<Vec<f32>>,
+    /// The object of the pixel's largest region, or [`NOTHING`].
+    pub object: Vec<u32>,
+    /// Share of the pixel's samples that meet that object.
+    pub share: Vec<f32>,
+    /// Position of that region, world space; NaN where nothing is seen.
+    pub position: Vec<Vec3>,
+    /// Geometric normal of that region; zero where nothing is seen.
+    pub normal: Vec<Vec3>,
+    /// Distance along the camera's axis of that region; +∞ where nothing is seen.
+    pub depth: Vec<f32>,
+    /// Samples generated, hidden ones included.
+    pub fragments: u64,
+    /// Regions shaded: points transformed to each light.
+    pub regions: u64,
+}
+
+/// Pass 2: the camera's picture of a scene, with `shadows[i]` deciding what of light i arrives (R87-1).
+///
+/// Lights beyond the end of `shadows` cast none.
+pub fn picture(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame) -> Picture {
+    let axis = frame.axis();
+    let view = frame.sample_view(&scene.camera);
+    // A picture too large to be supersampled as one grid is drawn at one sample a pixel.
+    let axis = if view.size() == scene.camera.size() { 1 } else { axis };
+    let soup = Soup::all(scene, &scene.camera);
+    let bins = Bins::new(&view, TexelRect::of_size(view.size()), Cull::None, soup.triangles());
+    let size = scene.camera.size();
+    let gather =
+        Gather { soup: &soup, bins: &bins, view: &view, axis, every_sample: frame.every_sample, width: size.x };
+    let tiles = bins.tiles();
+    let done: Vec<(UVec2, TileOut)> = (0..tiles.x * tiles.y)
+        .into_par_iter()
+        .map(|index| {
+            let tile = UVec2::new(index % tiles.x, index / tiles.x);
+            (tile * (TILE / axis), finish_tile(scene, shadows, frame, &gather, tile))
+        })
+        .collect();
+    let mut picture = Picture::empty(scene, size);
+    for (origin, tile) in done {
+        picture.place(origin, TILE / axis, &tile);
+    }
+    picture
+}
+
+struct Pixel {
+    index: u32,
+    colour: Vec3,
+    covered: f32,
+    shadow: Vec<f32>,
+    facing: Vec<f32>,
+    /// Objects met, each with its share of the samples.
+    objects: Vec<(u32, f32)>,
+    best: f32,
+    point: SurfacePoint,
+    zeta: f32,
+}
+
+struct TileOut {
+    pixels: Vec<Pixel>,
+    fragments: u64,
+    regions: u64,
+}
+
+fn finish_tile(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame, gather: &Gather, tile: UVec2) -> TileOut {
+    let (regions, fragments) = gather.tile(tile);
+    let points: Vec<SurfacePoint> = regions.iter().map(|region| region.point).collect();
+    let mut fractions = vec![vec![0.0; points.len()]; scene.lights.len()];
+    for (light, (shadow, out)) in shadows.iter().zip(&mut fractions).enumerate() {
+        shadow.fractions(&points, Key::new(frame.seed, frame.number, light as u32), out);
+    }
+    let mut pixels: Vec<Pixel> = Vec::new();
+    let lights = scene.lights.len();
+    for (index, region) in regions.iter().enumerate() {
+        if pixels.last().is_none_or(|pixel| pixel.index != region.pixel) {
+            pixels.push(Pixel::new(region, lights));
+        }
+        if let Some(pixel) = pixels.last_mut() {
+            pixel.add(scene, region, &fractions, index);
+        }
+    }
+    TileOut { pixels, fragments, regions: regions.len() as u64 }
+}
+
+impl Pixel {
+    fn new(region: &Region, lights: usize) -> Self {
+        Self {
+            index: region.pixel,
+            colour: Vec3::ZERO,
+            covered: 0.0,
+            shadow: vec![0.0; lights],
+            facing: vec![0.0; lights],
+            objects: Vec::new(),
+            best: 0.0,
+            point: region.point,
+            zeta: region.zeta,
+        }
+    }
+
+    fn add(&mut self, scene: &Scene, region: &Region, fractions: &[Vec<f32>], index: usize) {
+        let receives = scene.objects[region.point.object as usize].receives;
+        let mut arrives = vec![Vec3::ONE; fractions.len()];
+        for (light, fraction) in fractions.iter().enumerate() {
+            let fraction = if receives { fraction[index] } else { 0.0 };
+            arrives[light] = Vec3::splat(1.0 - fraction);
+            self.shadow[light] += fraction * region.share;
+            let toward = scene.lights[light].view.toward_eye(region.point.position.as_dvec3());
+            self.facing[light] += region.point.normal.dot(toward.as_vec3()) * region.share;
+        }
+        let toward_eye = scene.camera.toward_eye(region.point.position.as_dvec3()).as_vec3();
+        self.colour += shade(scene, region, toward_eye, &arrives) * region.share;
+        self.covered += region.share;
+        let object = region.point.object;
+        match self.objects.iter_mut().find(|(known, _)| *known == object) {
+            Some((_, share)) => *share += region.share,
+            None => self.objects.push((object, region.share)),
+        }
+        if region.share > self.best {
+            self.best = region.share;
+            self.point = region.point;
+            self.zeta = region.zeta;
+        }
+    }
+
+    /// The share of the samples that meet the object of the largest region.
+    fn share(&self) -> f32 {
+        self.objects.iter().find(|(object, _)| *object == self.point.object).map_or(0.0, |(_, share)| *share)
+    }
+}
+
+impl Picture {
+    fn empty(scene: &Scene, size: UVec2) -> Self {
+        let pixels = size.x as usize * size.y as usize;
+        let lights = scene.lights.len();
+        Self {
+            size,
+            colour: vec![scene.background; pixels],
+            shadow: vec![vec![0.0; pixels]; lights],
+            facing: vec![vec![0.0; pixels]; lights],
+            object: vec![NOTHING; pixels],
+            share: vec![0.0; pixels],
+            position: vec![Vec3::NAN; pixels],
+            normal: vec![Vec3::ZERO; pixels],
+            depth: vec![f32::INFINITY; pixels],
+            fragments: 0,
+            regions: 0,
+        }
+    }
+
+    fn place(&mut self, origin: UVec2, across: u32, tile: &TileOut) {
+        self.fragments += tile.fragments;
+        self.regions += tile.regions;
+        for pixel in &tile.pixels {
+            let at = origin + UVec2::new(pixel.index % across, pixel.index / across);
+            let index = (at.y * self.size.x + at.x) as usize;
+            self.colour[index] = self.colour[index] * (1.0 - pixel.covered) + pixel.colour;
+            for light in 0..self.shadow.len() {
+                self.shadow[light][index] = pixel.shadow[light];
+                self.facing[light][index] = pixel.facing[light];
+            }
+            self.object[index] = pixel.point.object;
+            self.share[index] = pixel.share();
+            self.position[index] = pixel.point.position;
+            self.normal[index] = pixel.point.normal;
+            self.depth[index] = pixel.zeta;
+        }
+    }
+}

@@ -1,0 +1,25 @@
+use crate::camera::Region;
+use glam::Vec3;
+use umbrage_scene::{Light, Material, Scene};
+
+/// The light that a region sends to the camera: ambient, and per light Lambert and Blinn terms scaled by its
+/// transmittance. Highlights never appear in shadow, because the shadow is part of the shading (W78-4, R87-1, R87-23).
+pub(crate) fn shade(scene: &Scene, region: &Region, toward_eye: Vec3, transmittance: &[Vec3]) -> Vec3 {
+    let material = &scene.objects[region.point.object as usize].material;
+    let mut colour = scene.ambient * material.diffuse;
+    for (light, arrives) in scene.lights.iter().zip(transmittance) {
+        colour += reflect(material, light, region, toward_eye) * *arrives;
+    }
+    colour
+}
+
+fn reflect(material: &Material, light: &Light, region: &Region, toward_eye: Vec3) -> Vec3 {
+    let (toward_light, incident) = light.incident(region.point.position.as_dvec3());
+    let cosine = region.shading_normal.dot(toward_light);
+    if cosine <= 0.0 {
+        return Vec3::ZERO;
+    }
+    let half = (toward_light + toward_eye).normalize_or_zero();
+    let highlight = region.shading_normal.dot(half).max(0.0).powf(material.shininess);
+    incident * (material.diffuse * cosine + material.specular * highlight)
+}

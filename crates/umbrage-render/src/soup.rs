@@ -1,0 +1,82 @@
+use glam::Vec3;
+use std::borrow::Cow;
+use umbrage_plane::View;
+use umbrage_raster::Triangle;
+use umbrage_scene::{Mesh, Object, Scene};
+
+/// The triangles of a scene for one view, and the way back from a triangle's index to its mesh.
+///
+/// Patches are diced for the view (W78-23), meshes are borrowed.
+pub struct Soup<'a> {
+    pieces: Vec<Piece<'a>>,
+}
+
+struct Piece<'a> {
+    object: u32,
+    sheet: bool,
+    first: u32,
+    mesh: Cow<'a, Mesh>,
+}
+
+impl<'a> Soup<'a> {
+    /// The objects that cast: what pass 1 draws (R87-5).
+    pub fn casters(scene: &'a Scene, view: &View) -> Self {
+        Self::of(scene, view, |object| object.casts)
+    }
+
+    /// Every object: what the camera sees.
+    pub fn all(scene: &'a Scene, view: &View) -> Self {
+        Self::of(scene, view, |_| true)
+    }
+
+    fn of(scene: &'a Scene, view: &View, keep: impl Fn(&Object) -> bool) -> Self {
+        let mut first = 0;
+        let mut pieces = Vec::new();
+        for (id, object) in scene.objects.iter().enumerate().filter(|(_, object)| keep(object)) {
+            let mesh = object.shape.mesh_for(view);
+            let count = mesh.triangles.len() as u32;
+            pieces.push(Piece { object: id as u32, sheet: !object.solid, first, mesh });
+            first += count;
+        }
+        Self { pieces }
+    }
+
+    /// Number of triangles.
+    pub fn len(&self) -> usize {
+        self.pieces.last().map_or(0, |piece| piece.first as usize + piece.mesh.triangles.len())
+    }
+
+    /// True without a triangle.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The triangles in order; a triangle's index counts from 0 over all objects.
+    pub fn triangles(&self) -> impl Iterator<Item = Triangle> + '_ {
+        self.pieces.iter().flat_map(|piece| {
+            piece.mesh.triangles.iter().map(|triangle| Triangle {
+                corners: triangle.map(|vertex| piece.mesh.positions[vertex as usize]),
+                object: piece.object,
+                sheet: piece.sheet,
+            })
+        })
+    }
+
+    /// The smooth piece of surface that a triangle belongs to; unique together with its object.
+    pub(crate) fn surface(&self, triangle: u32) -> u32 {
+        let (piece, local) = self.find(triangle);
+        piece.mesh.surfaces[local]
+    }
+
+    /// A triangle's world corners and their shading normals.
+    pub(crate) fn corners(&self, triangle: u32) -> ([Vec3; 3], [Vec3; 3]) {
+        let (piece, local) = self.find(triangle);
+        let vertices = piece.mesh.triangles[local].map(|vertex| vertex as usize);
+        (vertices.map(|vertex| piece.mesh.positions[vertex]), vertices.map(|vertex| piece.mesh.normals[vertex]))
+    }
+
+    fn find(&self, triangle: u32) -> (&Piece<'a>, usize) {
+        let at = self.pieces.partition_point(|piece| piece.first <= triangle) - 1;
+        (&self.pieces[at], (triangle - self.pieces[at].first) as usize)
+    }
+}

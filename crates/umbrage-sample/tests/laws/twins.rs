@@ -1,0 +1,185 @@
+//! Every pattern once more, one tap at a time and without thought of speed. The kernels must agree bit for bit.
+
+use glam::Vec2;
+use umbrage_plane::Footprint;
+use umbrage_sample::{
+    Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Tap, Uniform,
+};
+
+/// A pattern that has a naive twin.
+pub trait Twin: Pattern {
+    /// Index and tap, of those that take part.
+    fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)>;
+}
+
+fn corners(region: &Footprint) -> (Vec2, Vec2) {
+    let half = Vec2::new(region.half.x.max(0.0), region.half.y.max(0.0));
+    (region.centre - half, region.centre + half)
+}
+
+fn tap(region: &Footprint, key: Key, index: u32, at: Vec2) -> (u32, Tap) {
+    let (low, high) = corners(region);
+    let at = Vec2::new(at.x.max(low.x).min(high.x), at.y.max(low.y).min(high.y));
+    (index, Tap { at, u: key.unit(index, 2), weight: 1.0 })
+}
+
+impl Twin for Centre {
+    fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)> {
+        vec![tap(region, key, 0, region.centre)]
+    }
+}
+
+impl Twin for EveryTexel {
+    fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)> {
+        let (low, high) = corners(region);
+        let along = |low: f32, high: f32, centre: f32| {
+            let around = low.floor() as i32 - 2..=high.floor() as i32 + 2;
+            let inside: Vec<f32> = around.map(|i| i as f32 + 0.5).filter(|&x| low <= x && x < high).collect();
+            if inside.is_empty() { vec![centre.floor() + 0.5] } else { inside }
+        };
+        let (columns, rows) = (along(low.x, high.x, region.centre.x), along(low.y, high.y, region.centre.y));
+        let positions = rows.iter().flat_map(|&y| columns.iter().map(move |&x| Vec2::new(x, y)));
+        positions.zip(0..).map(|(at, index)| tap(region, key, index, at)).collect()
+    }
+}
+
+impl Twin for Uniform {
+    fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)> {
+        let (low, high) = corners(region);
+        let at = |k| Vec2::new(key.unit(k, 0), key.unit(k, 1)) * (high - low) + low;
+        (0..self.num_samples).map(|k| tap(region, key, k, at(k))).collect()
+    }
+}
+
+impl Twin for Gaussian {
+    fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)> {
+        let deviate = |unit: f32| {
+            let v = unit * 2.0 - 1.0;
+            let t = v * v;
+            let above = ((t * -0.085_932_486 + 0.886_458) * t - 1.944_997_5) * t + 1.196_290_9;
+            let below = ((t * -0.175_305_12 + 1.065_494_3) * t - 1.864_279_6) * t + 1.0;
+            v * (above / below)
+        };
+        let at = |k| Vec2::new(deviate(key.unit(k, 0)), deviate(key.unit(k, 1))) * (region.half * 0.5) + region.centre;
+        (0..self.num_samples).map(|k| tap(region, key, k, at(k))).collect()
+    }
+}
+
+/// R87-13 step 4 word for word.
+pub fn counts(pattern: &Jittered, half: Vec2) -> (u32, u32) {
+    let (a, b) = (half.x, half.y);
+    let (n, m) = (pattern.num_samples as f32, pattern.min_samples as f32);
+    let (ns, nt) = if a == 0.0 && b == 0.0 {
+        return (1, 1);
+    } else if 4.0 * a * b < n {
+        ((2.0 * a + 0.5).floor().clamp(m, n), (2.0 * b + 0.5).floor().clamp(m, n))
+    } else {
+        let enough = |k: &u32| b * n >= (*k as f32 - 0.5) * (*k as f32 - 0.5) * a;
+        let nt = ((1..=10_000).filter(enough).count() as f32).clamp(m, n);
+        ((n / nt + 0.5).floor().clamp(m, n), nt)
+    };
+    let (ns, nt) = (ns as u32, nt as u32);
+    if pattern.hard_cap && ns * nt > pattern.num_samples {
+        if ns > nt { (pattern.num_samples / nt, nt) } else { (ns, pattern.num_samples / ns) }
+    } else {
+        (ns, nt)
+    }
+}
+
+fn cells(pattern: &Jittered, (ns, nt): (u32, u32), key: Key) -> impl Iterator<Item = (u32, Vec2)> {
+    let jitter = pattern.jitter;
+    let places = (0..nt).flat_map(move |j| (0..ns).map(move |i| Vec2::new(i as f32, j as f32)));
+    (0..).zip(places).map(move |(k, cell)| (k, cell + 0.5 + (Vec2::new(key.unit(k, 0), key.unit(k, 1)) - 0.5) * jitter))
+}
+
+impl Twin for Jittered {
+    fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)> {
+        let (low, high) = corners(region);
+        let (ns, nt) = counts(self, region.half);
+        let size = (high - low) / Vec2::new(ns as f32, nt as f32);
+        cells(self, (ns, nt), key).map(|(k, place)| tap(region, key, k, place * size + low)).collect()
+    }
+}
+
+/// The sign of the area, of convex quadrilaterals.
+fn side([a, b, c, d]: [Vec2; 4]) -> Option<f32> {
+    let area = (c - a).perp_dot(d - b);
+    let turn = |p: Vec2, q: Vec2, r: Vec2| (q - p).perp_dot(r - q) * area.signum();
+    let convex = turn(a, b, c) >= 0.0 && turn(b, c, d) >= 0.0 && turn(c, d, a) >= 0.0 && turn(d, a, b) >= 0.0;
+    (convex && area != 0.0).then_some(area.signum())
+}
+
+impl Twin for InsideQuadReject {
+    fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)> {
+        let all = self.0.naive(region, key);
+        let Some(side) = side(region.corners) else { return all };
+        let behind_no_edge = |at: Vec2| {
+            (0..4).all(|k| {
+                let edge = region.corners[(k + 1) % 4] - region.corners[k];
+                let inward = Vec2::new(-edge.y, edge.x) * side;
+                let from = at - region.corners[k];
+                from.x * inward.x + from.y * inward.y >= 0.0
+            })
+        };
+        let last = all.len() as u32;
+        let inside: Vec<_> = all.into_iter().filter(|(_, tap)| behind_no_edge(tap.at)).collect();
+        if !inside.is_empty() {
+            return inside;
+        }
+        let [a, b, c, d] = region.corners;
+        vec![tap(region, key, last.next_multiple_of(16), (a + b + c + d) * 0.25)]
+    }
+}
+
+impl Twin for InsideQuadWarp {
+    fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)> {
+        if side(region.corners).is_none() {
+            return self.0.naive(region, key);
+        }
+        let [a, b, c, d] = region.corners;
+        let (across, down, twist) = (b - a, d - a, a - b + c - d);
+        let jacobian = [across.perp_dot(down), across.perp_dot(twist), twist.perp_dot(down)];
+        let mean = jacobian[0] + 0.5 * (jacobian[1] + jacobian[2]);
+        let [j0, js, jt] = jacobian.map(|term| term / mean);
+        let half = 0.5 * Vec2::new((across + 0.5 * twist).length(), (down + 0.5 * twist).length());
+        let (ns, nt) = counts(&self.0, half);
+        let size = 1.0 / Vec2::new(ns as f32, nt as f32);
+        let warped = |(k, place): (u32, Vec2)| {
+            let Vec2 { x: s, y: t } = place * size;
+            let at = s * (t * twist + across) + t * down + a;
+            let weight = (s * js + t * jt + j0).max(0.0);
+            let (k, tap) = tap(region, key, k, at);
+            (k, Tap { weight, ..tap })
+        };
+        cells(&self.0, (ns, nt), key).map(warped).collect()
+    }
+}
+
+/// Cosine and sine by the kernel's polynomials.
+fn turned(turns: f32) -> Vec2 {
+    let quarters = (turns * 4.0 + 0.5).floor();
+    let angle = (turns - quarters * 0.25) * std::f32::consts::TAU;
+    let t = angle * angle;
+    let sin = (((t * (1.0 / 362_880.0) - 1.0 / 5_040.0) * t + 1.0 / 120.0) * t - 1.0 / 6.0) * t * angle + angle;
+    let cos = (((t * (1.0 / 40_320.0) - 1.0 / 720.0) * t + 1.0 / 24.0) * t - 0.5) * t + 1.0;
+    match quarters as u32 % 4 {
+        0 => Vec2::new(cos, sin),
+        1 => Vec2::new(-sin, cos),
+        2 => Vec2::new(-cos, -sin),
+        _ => Vec2::new(sin, -cos),
+    }
+}
+
+impl Twin for Disc {
+    fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)> {
+        let n = self.num_samples as f32;
+        let start = if self.rotate { key.unit(0, 0) } else { 0.0 };
+        let mirrored = |i: u32| (0..24).map(|bit| (i >> bit & 1) as f32 * 0.5f32.powi(bit + 1)).sum::<f32>();
+        let at = |i: u32| {
+            let y = mirrored(i) + if self.half_offset { 0.5 / n } else { 0.0 };
+            let radius = if self.density == Density::Uniform { y.sqrt() } else { y };
+            radius * turned(i as f32 / n + start) * region.half + region.centre
+        };
+        (0..self.num_samples).map(|i| tap(region, key, i, at(i))).collect()
+    }
+}

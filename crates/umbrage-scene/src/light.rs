@@ -1,0 +1,120 @@
+use glam::{DVec3, UVec2, Vec3};
+use umbrage_plane::{Rules, View, ViewError};
+
+/// A light: where it stands and what it sees, its colour, whether it casts shadows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Light {
+    /// Name for people.
+    pub name: String,
+    /// Placement, frustum, map size, cone and the answers outside (spec C-10).
+    pub view: View,
+    /// Linear RGB radiance factor; a shadow scales each channel (R87-23).
+    pub colour: Vec3,
+    /// Whether it has a shadow map.
+    pub casts: bool,
+}
+
+impl Light {
+    /// A light at infinity, in the direction `to_light` (any length but 0). Its map is `half_extent` world units high to
+    /// either side of `target`; the target lies midway between the near and far planes, `near` < `far` in world units.
+    /// Outside the map it is lit (W78-8).
+    ///
+    /// White and casting; the map's up is +y, or +z where the light shines along y.
+    ///
+    /// # Errors
+    /// As [`View::orthographic`].
+    pub fn directional(
+        name: &str,
+        to_light: DVec3,
+        target: DVec3,
+        half_extent: f64,
+        near: f64,
+        far: f64,
+        size: UVec2,
+    ) -> Result<Self, ViewError> {
+        let eye = target + to_light.normalize_or_zero() * (0.5 * (near + far));
+        // The sum may round to the target itself or lie beyond it; only the direction of view counts here.
+        let ahead = eye - to_light.normalize_or_zero();
+        let view = View::orthographic(eye, ahead, up_for(to_light), half_extent, near, far, size)?;
+        Ok(Self::new(name, &view.with_rules(Rules::OPEN)))
+    }
+
+    /// A spot light: nothing leaves it outside a cone of `full_angle_deg` degrees (below 180), whose edge touches the sides of
+    /// a square map. Outside the cone and behind the light all is dark (Woo 1992; W92, C-10).
+    ///
+    /// White and casting; the map's up is +y, or +z where the light shines along y.
+    ///
+    /// # Errors
+    /// As [`View::perspective`].
+    pub fn spot(
+        name: &str,
+        position: DVec3,
+        target: DVec3,
+        full_angle_deg: f64,
+        near: f64,
+        far: f64,
+        size: UVec2,
+    ) -> Result<Self, ViewError> {
+        let mut light = Self::point(name, position, target, full_angle_deg, near, far, size)?;
+        let tan_half = (0.5 * full_angle_deg.to_radians()).tan();
+        light.view = light.view.with_rules(Rules::SPOT).with_cone(Some(tan_half));
+        Ok(light)
+    }
+
+    /// A point light that shines everywhere but whose one map sees only a frustum of `fov_deg` degrees toward `target`. What
+    /// lies outside the map is lit (R87-16, C-10).
+    ///
+    /// White and casting; the map's up is +y, or +z where the light shines along y.
+    ///
+    /// # Errors
+    /// As [`View::perspective`].
+    pub fn point(
+        name: &str,
+        position: DVec3,
+        target: DVec3,
+        fov_deg: f64,
+        near: f64,
+        far: f64,
+        size: UVec2,
+    ) -> Result<Self, ViewError> {
+        let up = up_for(target - position);
+        let view = View::perspective(position, target, up, fov_deg.to_radians(), near, far, size)?;
+        Ok(Self::new(name, &view.with_rules(Rules::OPEN)))
+    }
+
+    fn new(name: &str, view: &View) -> Self {
+        Self { name: name.into(), view: *view, colour: Vec3::ONE, casts: true }
+    }
+
+    /// The same light in another colour, linear RGB.
+    #[must_use]
+    pub fn coloured(mut self, colour: Vec3) -> Self {
+        self.colour = colour;
+        self
+    }
+
+    /// Unit direction from a world point to the light and the light arriving there unshadowed (no distance falloff;
+    /// zero behind a spot and outside its cone, and at the light's own place, where there is no direction either).
+    ///
+    /// A light with a cone in its view is a spot.
+    pub fn incident(&self, world: DVec3) -> (Vec3, Vec3) {
+        let toward = self.view.toward_eye(world);
+        let arrives = toward != DVec3::ZERO && self.reaches(world);
+        (toward.as_vec3(), if arrives { self.colour } else { Vec3::ZERO })
+    }
+
+    fn reaches(&self, world: DVec3) -> bool {
+        match self.view.cone() {
+            Some(tan_half) if self.view.is_perspective() => {
+                let eye = self.view.world_to_eye().transform_point3(world);
+                -eye.z > 0.0 && eye.truncate().length_squared() <= (tan_half * eye.z).powi(2)
+            }
+            _ => true,
+        }
+    }
+}
+
+/// The up of a map: y is up in the world unless the light shines nearly along it (within about 2.6°).
+fn up_for(direction: DVec3) -> DVec3 {
+    if direction.normalize_or_zero().y.abs() < 0.999 { DVec3::Y } else { DVec3::Z }
+}

@@ -1,0 +1,140 @@
+use glam::Vec3;
+
+/// Triangles with shading normals. Vertices on a crease are doubled with equal positions.
+///
+/// Constructors: [`Mesh::sphere`], [`Mesh::cuboid`], [`Mesh::cylinder`] and [`Mesh::torus`] are closed,
+/// [`Mesh::sheet`] is open.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// World-space positions.
+    pub positions: Vec<Vec3>,
+    /// Unit shading normals, one a position.
+    pub normals: Vec<Vec3>,
+    /// Indices into the above, counter-clockwise from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// One a triangle: the smooth piece of surface it belongs to (a box has six, a sphere one).
+    pub surfaces: Vec<u32>,
+}
+
+/// Why a mesh cannot be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MeshError {
+    /// Not one normal a position.
+    #[error("mesh has {positions} positions but {normals} normals")]
+    Normals {
+        /// Number of positions.
+        positions: usize,
+        /// Number of normals.
+        normals: usize,
+    },
+    /// Not one surface a triangle.
+    #[error("mesh has {triangles} triangles but {surfaces} surface ids")]
+    Surfaces {
+        /// Number of triangles.
+        triangles: usize,
+        /// Number of surface ids.
+        surfaces: usize,
+    },
+    /// A triangle names a vertex that does not exist.
+    #[error("mesh triangle {triangle} names vertex {vertex} of {vertices}")]
+    Index {
+        /// The triangle.
+        triangle: usize,
+        /// What it names.
+        vertex: u32,
+        /// Number of vertices.
+        vertices: usize,
+    },
+    /// A coordinate of a position or a normal is NaN or infinite.
+    #[error("mesh vertex {vertex} has a coordinate that is not finite")]
+    NotFinite {
+        /// The vertex.
+        vertex: usize,
+    },
+}
+
+impl Mesh {
+    /// Nothing wrong with lengths, indices and numbers. Normals are not required to be of unit length here.
+    ///
+    /// # Errors
+    /// The first fault found; see [`MeshError`].
+    pub fn check(&self) -> Result<(), MeshError> {
+        let vertices = self.positions.len();
+        if self.normals.len() != vertices {
+            return Err(MeshError::Normals { positions: vertices, normals: self.normals.len() });
+        }
+        if self.surfaces.len() != self.triangles.len() {
+            return Err(MeshError::Surfaces { triangles: self.triangles.len(), surfaces: self.surfaces.len() });
+        }
+        for (triangle, corners) in self.triangles.iter().enumerate() {
+            if let Some(&vertex) = corners.iter().find(|&&vertex| vertex as usize >= vertices) {
+                return Err(MeshError::Index { triangle, vertex, vertices });
+            }
+        }
+        let finite = |(position, normal): (&Vec3, &Vec3)| position.is_finite() && normal.is_finite();
+        match self.positions.iter().zip(&self.normals).position(|vertex| !finite(vertex)) {
+            Some(vertex) => Err(MeshError::NotFinite { vertex }),
+            None => Ok(()),
+        }
+    }
+
+    /// Least and greatest corner of the box around all positions, both inclusive; `None` without a position.
+    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        let first = *self.positions.first()?;
+        Some(self.positions.iter().fold((first, first), |(low, high), at| (low.min(*at), high.max(*at))))
+    }
+
+    /// The three corners of a triangle, in world space.
+    ///
+    /// # Panics
+    /// When the triangle, or a vertex that it names, does not exist.
+    pub fn corners(&self, triangle: usize) -> [Vec3; 3] {
+        self.triangles[triangle].map(|vertex| self.positions[vertex as usize])
+    }
+
+    /// True when the triangles bound a solid: every edge, named by its two positions, belongs to exactly two triangles
+    /// that run along it in opposite directions. A mesh without triangles is closed.
+    ///
+    /// # Panics
+    /// When a triangle names a vertex that does not exist ([`Mesh::check`]).
+    pub fn is_closed(&self) -> bool {
+        self.open_edges() == 0
+    }
+
+    /// How many edges, named by position, do not belong to exactly two triangles that run along them in opposite
+    /// directions.
+    ///
+    /// # Panics
+    /// As [`Mesh::is_closed`].
+    pub fn open_edges(&self) -> usize {
+        let mut edges: Vec<([[u32; 3]; 2], bool)> = (0..self.triangles.len())
+            .flat_map(|triangle| {
+                let [a, b, c] = self.corners(triangle).map(position_bits);
+                [[a, b], [b, c], [c, a]]
+            })
+            .map(|[from, to]| if from <= to { ([from, to], false) } else { ([to, from], true) })
+            .collect();
+        edges.sort_unstable();
+        let whole = |edge: &[([[u32; 3]; 2], bool)]| matches!(edge, [(_, false), (_, true)]);
+        edges.chunk_by(|a, b| a.0 == b.0).filter(|edge| !whole(edge)).count()
+    }
+
+    /// Adds another mesh's triangles. Its surfaces are numbered after this mesh's.
+    ///
+    /// # Panics
+    /// When vertices or surfaces would pass 2³².
+    pub fn append(&mut self, other: &Self) {
+        let vertices = u32::try_from(self.positions.len()).expect("at most 2^32 vertices");
+        let surfaces = self.surfaces.iter().max().map_or(0, |last| last + 1);
+        self.positions.extend_from_slice(&other.positions);
+        self.normals.extend_from_slice(&other.normals);
+        self.triangles.extend(other.triangles.iter().map(|corners| corners.map(|vertex| vertex + vertices)));
+        self.surfaces.extend(other.surfaces.iter().map(|surface| surface + surfaces));
+    }
+}
+
+/// Bits by which two positions are the same place: −0 is 0.
+pub(crate) fn position_bits(position: Vec3) -> [u32; 3] {
+    (position + Vec3::ZERO).to_array().map(f32::to_bits)
+}

@@ -1,0 +1,122 @@
+use crate::{Mesh, Patch, dice};
+use glam::Vec3;
+use std::borrow::Cow;
+use umbrage_plane::View;
+
+use crate::Light;
+
+/// The geometry of an object.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// Fixed triangles.
+    Mesh(Mesh),
+    /// Patches, diced anew for each view (Williams 1978; W78-23).
+    Patches(Vec<Patch>),
+}
+
+impl Shape {
+    /// The triangles to draw in `view`: a mesh as it is, patches diced so that no piece is larger than a texel ([`dice`]).
+    pub fn mesh_for(&self, view: &View) -> Cow<'_, Mesh> {
+        match self {
+            Self::Mesh(mesh) => Cow::Borrowed(mesh),
+            Self::Patches(patches) => Cow::Owned(dice(patches, view)),
+        }
+    }
+
+    /// Points whose convex hull holds the shape: vertices, or control points. World space.
+    pub fn hull(&self) -> impl Iterator<Item = Vec3> + '_ {
+        let (vertices, patches) = match self {
+            Self::Mesh(mesh) => (mesh.positions.as_slice(), [].as_slice()),
+            Self::Patches(patches) => ([].as_slice(), patches.as_slice()),
+        };
+        vertices.iter().copied().chain(patches.iter().flat_map(|patch| patch.control.into_iter().flatten()))
+    }
+}
+
+/// A plastic-like surface: ambient and diffuse colour, a white or tinted Blinn highlight. Linear light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Diffuse reflectance, linear RGB in 0..1.
+    pub diffuse: Vec3,
+    /// Specular reflectance, linear RGB in 0..1.
+    pub specular: Vec3,
+    /// Blinn exponent.
+    pub shininess: f32,
+}
+
+impl Material {
+    /// Without a highlight.
+    pub const fn matt(diffuse: Vec3) -> Self {
+        Self { diffuse, specular: Vec3::ZERO, shininess: 1.0 }
+    }
+
+    /// With a white highlight, as the papers' pictures show it.
+    pub const fn plastic(diffuse: Vec3) -> Self {
+        Self { diffuse, specular: Vec3::splat(0.35), shininess: 40.0 }
+    }
+}
+
+/// One thing of a scene. Its id is its index in [`Scene::objects`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Object {
+    /// Name for people.
+    pub name: String,
+    /// Geometry.
+    pub shape: Shape,
+    /// Surface.
+    pub material: Material,
+    /// Drawn in pass 1 (Reeves 1987 leaves the ground out; R87-5).
+    pub casts: bool,
+    /// Can be shadowed.
+    pub receives: bool,
+    /// True for the closed boundary of a solid, false for an open, two-sided surface.
+    pub solid: bool,
+}
+
+impl Object {
+    /// A closed mesh that casts and receives.
+    pub fn solid(name: &str, mesh: Mesh, material: Material) -> Self {
+        Self { name: name.into(), shape: Shape::Mesh(mesh), material, casts: true, receives: true, solid: true }
+    }
+
+    /// An open, two-sided shape that casts and receives.
+    pub fn two_sided(name: &str, shape: Shape, material: Material) -> Self {
+        Self { name: name.into(), shape, material, casts: true, receives: true, solid: false }
+    }
+}
+
+/// Everything a figure draws.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Name for people and files.
+    pub name: String,
+    /// Things, by id.
+    pub objects: Vec<Object>,
+    /// Lights, by id.
+    pub lights: Vec<Light>,
+    /// Linear RGB light from everywhere.
+    pub ambient: Vec3,
+    /// Linear RGB where nothing is seen.
+    pub background: Vec3,
+    /// The observer.
+    pub camera: View,
+}
+
+impl Scene {
+    /// Ids of the casting objects that are not wholly inside what a light sees; their shadows may be cut off (W78-8).
+    ///
+    /// Patches are judged by their control points, so that one may be named that just fits.
+    pub fn casters_outside(&self, light: &View) -> Vec<u32> {
+        let casters = self.objects.iter().enumerate().filter(|(_, object)| object.casts);
+        casters.filter(|(_, object)| !object.shape.hull().all(|at| sees(light, at))).map(|(id, _)| id as u32).collect()
+    }
+}
+
+/// True when a world point lies inside the view's volume, near and far planes included.
+fn sees(view: &View, at: Vec3) -> bool {
+    let eye = view.world_to_eye().transform_point3(at.as_dvec3());
+    let in_range = (view.near()..=view.far()).contains(&-eye.z);
+    let texel = view.eye_to_texel(eye);
+    let size = view.size().as_dvec2();
+    in_range && texel.cmpge(glam::DVec2::ZERO).all() && texel.cmple(size).all()
+}

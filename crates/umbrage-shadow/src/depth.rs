@@ -1,0 +1,126 @@
+use fearless_simd::{Simd, f32x16, prelude::*};
+use glam::{IVec2, Vec2};
+use umbrage_plane::{Bias, DepthRange, Receiver, TexelRect, View, floor_texel};
+use umbrage_sample::Taps;
+
+/// Which depth the receiver is given at a tap; a texel nearer than that shadows it.
+pub trait ReceiverDepth: Sync {
+    /// The depth to compare at each of the taps, in the map's kind, bias included.
+    fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S>;
+
+    /// Encloses every value that [`ReceiverDepth::lanes`] can return for taps inside `rect`, rounding included.
+    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange;
+}
+
+/// How a bias is taken from its range at each tap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Spread {
+    /// At random (Reeves 1987, R87-14): a surface that curves away shadows itself gradually, with noise.
+    #[default]
+    Random,
+    /// As a ramp: tap k takes the radical inverse of k, so that the taps of a region share the range evenly, without noise.
+    Ramp,
+}
+
+/// One depth for the whole region, moved toward the light by a bias from a range (Reeves 1987, §3.2 and Fig. 4; R87-14).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Biased {
+    /// Smallest bias.
+    pub low: Bias,
+    /// Largest bias; equal to `low` for a fixed bias. Never reached exactly when it differs.
+    pub high: Bias,
+    /// How a tap's bias is taken from the range.
+    pub spread: Spread,
+}
+
+impl Biased {
+    /// The same bias at every tap.
+    pub const fn constant(bias: Bias) -> Self {
+        Self { low: bias, high: bias, spread: Spread::Random }
+    }
+
+    /// World units drawn at random from `low..high`.
+    pub const fn world(low: f32, high: f32) -> Self {
+        Self { low: Bias::World(low), high: Bias::World(high), spread: Spread::Random }
+    }
+
+    #[inline(always)]
+    fn ends(&self, view: &View, receiver: &Receiver) -> (f32, f32) {
+        (receiver.nearer(view, self.low), receiver.nearer(view, self.high))
+    }
+}
+
+impl Default for Biased {
+    /// Reeves' (0.3, 0.4), for worlds of about 100 units.
+    fn default() -> Self {
+        Self::world(0.3, 0.4)
+    }
+}
+
+impl ReceiverDepth for Biased {
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
+        let (near_end, far_end) = self.ends(view, receiver);
+        if near_end == far_end || !(far_end - near_end).is_finite() {
+            return f32x16::splat(simd, near_end);
+        }
+        let share = match self.spread {
+            Spread::Random => taps.u,
+            Spread::Ramp => {
+                let first = taps.first;
+                f32x16::load_array(simd, std::array::from_fn(|i| van_der_corput(first + i as u32)))
+            }
+        };
+        share * (far_end - near_end) + near_end
+    }
+
+    #[inline(always)]
+    fn bounds(&self, view: &View, receiver: &Receiver, _rect: TexelRect) -> DepthRange {
+        let (near_end, far_end) = self.ends(view, receiver);
+        if near_end == far_end || !(far_end - near_end).is_finite() {
+            return DepthRange { min: near_end, max: near_end };
+        }
+        let last = near_end + (far_end - near_end);
+        DepthRange { min: near_end.min(last), max: near_end.max(last) }
+    }
+}
+
+/// Base-2 radical inverse, in \[0, 1).
+#[inline(always)]
+fn van_der_corput(index: u32) -> f32 {
+    (index.reverse_bits() >> 8) as f32 * (1.0 / 16_777_216.0)
+}
+
+/// The receiver's tangent plane where the texel that is read was sampled, moved toward the light by a bias
+/// (the receiver plane of R87-13 and E-R16; the virtual sample of Wang & Molnar 1994).
+///
+/// A plane then needs no bias for slope, only for rounding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OnPlane {
+    /// Moves the whole plane toward the light.
+    pub bias: Bias,
+}
+
+impl ReceiverDepth for OnPlane {
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
+        let plane = receiver.plane(view);
+        let nearer = receiver.nearer(view, self.bias) - receiver.depth;
+        let (column, row) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
+        let depth = |i: usize| plane.at(view.sampling().position(IVec2::new(column[i], row[i]))) + nearer;
+        f32x16::load_array(simd, std::array::from_fn(depth))
+    }
+
+    #[inline(always)]
+    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
+        let nearer = receiver.nearer(view, self.bias) - receiver.depth;
+        let plane = receiver.plane(view).bounds(rect);
+        DepthRange { min: plane.min + nearer, max: plane.max + nearer }
+    }
+}
+
+/// Texel positions as a pair, for code that asks one lane at a time.
+#[inline(always)]
+pub(crate) fn lane<S: Simd>(taps: &Taps<S>, i: usize) -> Vec2 {
+    Vec2::new(taps.x[i], taps.y[i])
+}

@@ -1,0 +1,64 @@
+use umbrage_plane::Where;
+
+/// Is told what a filter does, for counters and for explanations. Every method does nothing unless overridden, and `()` is the probe that costs nothing.
+pub trait Probe {
+    /// A receiver whose answer its place alone settled.
+    #[inline(always)]
+    fn placed(&mut self, place: Where) {
+        let _ = place;
+    }
+    /// A region settled by depth ranges without a look-up; `dark` is the answer.
+    #[inline(always)]
+    fn culled(&mut self, dark: bool) {
+        let _ = dark;
+    }
+    /// A region that was looked up, with the number of texels read.
+    #[inline(always)]
+    fn looked(&mut self, texels: u32) {
+        let _ = texels;
+    }
+}
+
+impl Probe for () {}
+
+/// Counts of what filters did (spec X-6).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Receivers answered by their place.
+    pub placed: u64,
+    /// Regions found lit by ranges alone.
+    pub culled_lit: u64,
+    /// Regions found dark by ranges alone.
+    pub culled_dark: u64,
+    /// Regions that were looked up.
+    pub sampled: u64,
+    /// Texels read.
+    pub lookups: u64,
+}
+
+impl Counters {
+    /// Both counts together.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            placed: self.placed + other.placed,
+            culled_lit: self.culled_lit + other.culled_lit,
+            culled_dark: self.culled_dark + other.culled_dark,
+            sampled: self.sampled + other.sampled,
+            lookups: self.lookups + other.lookups,
+        }
+    }
+}
+
+impl Probe for Counters {
+    fn placed(&mut self, _place: Where) {
+        self.placed += 1;
+    }
+    fn culled(&mut self, dark: bool) {
+        *(if dark { &mut self.culled_dark } else { &mut self.culled_lit }) += 1;
+    }
+    fn looked(&mut self, texels: u32) {
+        self.sampled += 1;
+        self.lookups += u64::from(texels);
+    }
+}

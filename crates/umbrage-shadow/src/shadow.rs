@@ -1,0 +1,77 @@
+use crate::{Filter, Probe};
+use fearless_simd::{Level, Simd, dispatch};
+use glam::Vec3;
+use umbrage_depth::DepthMap;
+use umbrage_plane::{Receiver, SurfacePoint, Verdict};
+use umbrage_sample::Key;
+
+/// What shading sees of a shadow algorithm, and the one place where types are erased: a call answers a whole batch of regions.
+///
+/// `key` names the picture's light; the implementor adds each point's region to it.
+pub trait Shadow: Sync {
+    /// The fraction in shadow of each region: 0 lit, 1 dark. `out` is as long as `at`.
+    fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]);
+
+    /// The fraction of one region.
+    fn fraction(&self, at: &SurfacePoint, key: Key) -> f32 {
+        let mut out = [0.0];
+        self.fractions(std::slice::from_ref(at), key, &mut out);
+        out[0]
+    }
+
+    /// The light that arrives, per colour channel: 1 − fraction unless something between is coloured.
+    fn transmittance(&self, at: &SurfacePoint, key: Key) -> Vec3 {
+        Vec3::splat(1.0 - self.fraction(at, key))
+    }
+}
+
+/// A light that casts no shadow.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Unshadowed;
+
+impl Shadow for Unshadowed {
+    fn fractions(&self, _at: &[SurfacePoint], _key: Key, out: &mut [f32]) {
+        out.fill(0.0);
+    }
+}
+
+/// A filter over a map; the map owns its view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShadowMap<F, M> {
+    /// How the map is asked.
+    pub filter: F,
+    /// What is asked.
+    pub map: M,
+}
+
+impl<F: Filter, M: DepthMap> ShadowMap<F, M> {
+    /// [`Shadow::fractions`] that also tells `probe` what was done (spec X-6).
+    pub fn fractions_probed<P: Probe>(&self, at: &[SurfacePoint], key: Key, out: &mut [f32], probe: &mut P) {
+        dispatch!(Level::new(), simd => self.batch(simd, at, key, out, probe));
+    }
+
+    /// The fraction of a receiver that is already in the light's space, under its region's own key.
+    pub fn fraction_of(&self, receiver: &Receiver, key: Key) -> f32 {
+        dispatch!(Level::new(), simd => self.filter.shadow(simd, &self.map, receiver, key, &mut ()))
+    }
+
+    #[inline(always)]
+    fn batch<S: Simd, P: Probe>(&self, simd: S, at: &[SurfacePoint], key: Key, out: &mut [f32], probe: &mut P) {
+        let view = self.map.view();
+        for (point, fraction) in at.iter().zip(out) {
+            *fraction = match view.receiver(point) {
+                Ok(receiver) => self.filter.shadow(simd, &self.map, &receiver, key.region(point.region), probe),
+                Err(place) => {
+                    probe.placed(place);
+                    if view.rules().verdict(place) == Verdict::Shadowed { 1.0 } else { 0.0 }
+                }
+            };
+        }
+    }
+}
+
+impl<F: Filter, M: DepthMap> Shadow for ShadowMap<F, M> {
+    fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
+        self.fractions_probed(at, key, out, &mut ());
+    }
+}

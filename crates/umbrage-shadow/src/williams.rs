@@ -1,0 +1,206 @@
+//! Casting curved shadows on curved surfaces, Williams 1978.
+//!
+//! [`Williams`] is the test of one point against the light's map, with the stages that the paper puts in front of the
+//! comparison in their order (W78-18): transform, dither, look up, compare. The matrices by which a finished picture is
+//! tested are here as well; the stages after the comparison work on the shadow image and live in `umbrage-render`.
+//!
+//! Departures: (1) bilinear interpolation of an axial perspective map is done on −1/ζ, where planes are linear
+//! (W78-13, D-1); (2) [`Guard`] keeps blends across silhouettes out of the comparison (W78-14).
+
+use crate::{Filter, Probe};
+use fearless_simd::Simd;
+use glam::{DMat4, DVec3, DVec4, IVec2, Vec2};
+use umbrage_depth::DepthMap;
+use umbrage_plane::{Bias, Kind, Receiver, Verdict, View};
+use umbrage_sample::Key;
+
+/// How the light's depth at a point is taken from the texels around it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lookup {
+    /// The texel that the point falls in (W78-12).
+    Nearest,
+    /// Interpolated between the four nearest texel centres (W78-13).
+    Bilinear(Guard),
+}
+
+/// What bilinear interpolation does at a silhouette, where a blend means nothing (W78-14).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Guard {
+    /// Blends whatever is there; empty texels count as the far plane.
+    Faithful,
+    /// Takes the nearest texel instead when one of the four is empty, or when they differ by more than this many depth steps of the receiver's own plane.
+    Steps(f32),
+}
+
+impl Default for Guard {
+    fn default() -> Self {
+        Self::Steps(4.0)
+    }
+}
+
+/// The law of the dither (W78-15).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum DitherLaw {
+    /// Normal with σ = 1/6, redrawn outside ±½: standard deviation 0.16443 (V46d).
+    #[default]
+    TruncatedNormal,
+    /// Mean of three uniform numbers less ½: standard deviation 1/6.
+    ThreeUniforms,
+}
+
+/// A random displacement before the look-up (W78-15).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dither {
+    /// Full range of the displacement in x and y, in texels: 1 means ±½. 0 is off; the legal range is 0..=2.
+    pub amplitude: f32,
+    /// The law it is drawn from.
+    pub law: DitherLaw,
+    /// Full range of a displacement of the receiver's depth, in units of the map's numbers (the paper's wording admits both); 0 is off.
+    pub depth: f32,
+}
+
+impl Dither {
+    /// None.
+    pub const OFF: Self = Self { amplitude: 0.0, law: DitherLaw::TruncatedNormal, depth: 0.0 };
+    /// The paper's: ±½ texel.
+    pub const HALF_TEXEL: Self = Self { amplitude: 1.0, ..Self::OFF };
+
+    /// One number of the law, in \[−½, ½\]; `axis` 0, 1 or 2 gives independent ones.
+    pub fn draw(law: DitherLaw, key: Key, axis: u32) -> f32 {
+        match law {
+            DitherLaw::ThreeUniforms => (key.unit(axis, 4) + key.unit(axis, 5) + key.unit(axis, 6)) * (1.0 / 3.0) - 0.5,
+            DitherLaw::TruncatedNormal => {
+                // Box–Muller; outside ±3σ comes up 27 times in 10,000, so that eight tries never fail in practice.
+                for attempt in 0..8 {
+                    let draw = axis * 8 + attempt;
+                    let radius = (-2.0 * f64::from(1.0 - key.unit(draw, 4)).ln()).sqrt();
+                    let value = radius * (std::f64::consts::TAU * f64::from(key.unit(draw, 5))).cos() / 6.0;
+                    if value.abs() <= 0.5 {
+                        return value as f32;
+                    }
+                }
+                0.0
+            }
+        }
+    }
+}
+
+/// Williams' test of one point (W78-11..W78-15). The answer is 0 or 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Williams {
+    /// Moves the point toward the light (W78-11).
+    pub bias: Bias,
+    /// How the stored depth is read.
+    pub lookup: Lookup,
+    /// Displacement before the look-up.
+    pub dither: Dither,
+}
+
+impl Filter for Williams {
+    #[inline(always)]
+    fn shadow<S: Simd, M: DepthMap, P: Probe>(
+        &self,
+        _simd: S,
+        map: &M,
+        receiver: &Receiver,
+        key: Key,
+        probe: &mut P,
+    ) -> f32 {
+        let view = map.view();
+        let mut at = receiver.footprint.centre;
+        if self.dither.amplitude > 0.0 {
+            let draw = |axis| Dither::draw(self.dither.law, key, axis);
+            at += Vec2::new(draw(0), draw(1)) * self.dither.amplitude;
+        }
+        let place = view.locate(at);
+        match view.rules().verdict(place) {
+            Verdict::Lit => {
+                probe.placed(place);
+                return 0.0;
+            }
+            Verdict::Shadowed => {
+                probe.placed(place);
+                return 1.0;
+            }
+            Verdict::Compare => {}
+        }
+        let mut compared = receiver.nearer(view, self.bias);
+        if self.dither.depth > 0.0 {
+            compared += Dither::draw(self.dither.law, key, 2) * self.dither.depth;
+        }
+        let stored = match self.lookup {
+            Lookup::Nearest => {
+                probe.looked(1);
+                map.depth(at.floor().as_ivec2())
+            }
+            Lookup::Bilinear(guard) => {
+                probe.looked(4);
+                bilinear(map, at, guard, receiver)
+            }
+        };
+        if compared > stored { 1.0 } else { 0.0 }
+    }
+}
+
+/// The depth at a texel position between the four nearest texel centres (W78-13, V44).
+///
+/// Screen and orthographic depths are interpolated as they are, axial perspective depths through −1/ζ.
+pub fn bilinear<M: DepthMap>(map: &M, at: Vec2, guard: Guard, receiver: &Receiver) -> f32 {
+    let view = map.view();
+    let corner = (at - 0.5).floor();
+    let share = at - 0.5 - corner;
+    let texel = corner.as_ivec2();
+    let last = view.size().as_ivec2() - 1;
+    let read = |x, y| map.depth((texel + IVec2::new(x, y)).clamp(IVec2::ZERO, last));
+    let mut four = [read(0, 0), read(1, 0), read(0, 1), read(1, 1)];
+    match guard {
+        Guard::Faithful => {
+            let far = far_depth(view);
+            four = four.map(|depth| depth.min(far));
+        }
+        Guard::Steps(steps) => {
+            let (low, high) = four.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(l, h), &d| (l.min(d), h.max(d)));
+            let step = receiver.depth - receiver.nearer(view, Bias::Steps(1.0));
+            if !high.is_finite() || high - low > steps * step {
+                return map.depth(at.floor().as_ivec2());
+            }
+        }
+    }
+    let inverse = view.is_perspective() && view.kind() == Kind::Axial;
+    let [a, b, c, d] = four.map(|depth| if inverse { -1.0 / depth } else { depth });
+    let top = a + (b - a) * share.x;
+    let bottom = c + (d - c) * share.x;
+    let value = top + (bottom - top) * share.y;
+    if inverse { -1.0 / value } else { value }
+}
+
+fn far_depth(view: &View) -> f32 {
+    if view.kind() == Kind::Screen { 1.0 } else { view.far() as f32 }
+}
+
+/// The single matrix from the observer's screen (x_n, y_n, z_s) to the light's: M_light · M_observer⁻¹ (W78-3, V38).
+///
+/// It takes homogeneous points; divide by w afterwards ([`transform`]).
+pub fn observer_to_light(observer: &View, light: &View) -> DMat4 {
+    light.world_to_screen() * observer.world_to_screen().inverse()
+}
+
+/// Subtracts `bias` (units of z_s) from the z that comes out, inside the matrix: row 3 less bias times row 4 (W78-11, D-8, V39).
+pub fn fold_bias(matrix: DMat4, bias: f64) -> DMat4 {
+    let rows = matrix.transpose();
+    DMat4::from_cols(rows.x_axis, rows.y_axis, rows.z_axis - bias * rows.w_axis, rows.w_axis).transpose()
+}
+
+/// A point through a matrix with the homogeneous divide. `None` behind the light (w ≤ 0).
+#[inline(always)]
+pub fn transform(matrix: &DMat4, point: DVec3) -> Option<DVec3> {
+    let out: DVec4 = *matrix * point.extend(1.0);
+    (out.w > 0.0).then(|| out.truncate() / out.w)
+}
+
+/// Many points at once through one matrix (W78-27); the ones behind the light become NaN.
+pub fn transform_all(matrix: &DMat4, points: &mut [DVec3]) {
+    for point in points {
+        *point = transform(matrix, *point).unwrap_or(DVec3::NAN);
+    }
+}

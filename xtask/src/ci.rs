@@ -1,0 +1,116 @@
+//! Everything that must hold before a change is taken, in one order, here and on any server.
+
+use anyhow::Context as _;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+/// Runs every step, goes on after one that fails, and says at the end how each went. Whether all went well.
+pub fn run(root: &Path) -> anyhow::Result<bool> {
+    let mut steps = Steps { root, ended: Vec::new() };
+    let mut tests = Vec::new();
+    steps.cargo("format", &["fmt", "--all", "--check"], &[])?;
+    steps.cargo("lints", &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[])?;
+    steps.tests(&["test", "--workspace"], &mut tests)?;
+    // A page that links nowhere is worse than none.
+    steps.cargo("documentation", &["doc", "--no-deps", "--workspace"], &[("RUSTDOCFLAGS", "-D warnings")])?;
+    steps.own("tidy", &["tidy"])?;
+    steps.own("quick figures", &["figures", "--quick", "--out", "target/ci-figures/quick"])?;
+    // The quick figures stand there already and are used again.
+    steps.own("kept pictures and numbers", &["figures", "--check", "--out", "target/ci-figures"])?;
+    Ok(steps.tell(&tests))
+}
+
+struct Steps<'a> {
+    root: &'a Path,
+    ended: Vec<(&'static str, bool, f64)>,
+}
+
+impl Steps<'_> {
+    fn command(&self, program: impl AsRef<std::ffi::OsStr>, args: &[&str]) -> Command {
+        let mut command = Command::new(program);
+        command.args(args).current_dir(self.root);
+        command
+    }
+
+    fn step(&mut self, name: &'static str, run: impl FnOnce() -> anyhow::Result<bool>) -> anyhow::Result<()> {
+        println!("\n=== {name} ===");
+        let start = Instant::now();
+        let good = run().context(name)?;
+        self.ended.push((name, good, start.elapsed().as_secs_f64()));
+        Ok(())
+    }
+
+    fn cargo(&mut self, name: &'static str, args: &[&str], environment: &[(&str, &str)]) -> anyhow::Result<()> {
+        let mut command = self.command(cargo(), args);
+        command.envs(environment.iter().copied());
+        self.step(name, || Ok(command.status()?.success()))
+    }
+
+    /// One of this program's own chores, as its user would run it.
+    fn own(&mut self, name: &'static str, args: &[&str]) -> anyhow::Result<()> {
+        let mut command = self.command(std::env::current_exe()?, args);
+        self.step(name, || Ok(command.status()?.success()))
+    }
+
+    /// The tests, printed as they come; the closing line of each program is kept in `closing`.
+    fn tests(&mut self, args: &[&str], closing: &mut Vec<String>) -> anyhow::Result<()> {
+        let mut command = self.command(cargo(), args);
+        self.step("tests", || {
+            let mut child = command.stdout(Stdio::piped()).spawn()?;
+            if let Some(output) = child.stdout.take() {
+                for line in BufReader::new(output).lines() {
+                    let line = line?;
+                    println!("{line}");
+                    if line.starts_with("test result:") {
+                        closing.push(line);
+                    }
+                }
+            }
+            Ok(child.wait()?.success())
+        })
+    }
+
+    fn tell(&self, tests: &[String]) -> bool {
+        println!("\n=== summary ===");
+        for (name, good, seconds) in &self.ended {
+            println!("{:6}  {seconds:6.1} s  {name}", if *good { "ok" } else { "FAILED" });
+        }
+        for line in tests {
+            println!("{line}");
+        }
+        let (passed, failed) = sum(tests);
+        println!("{passed} passed, {failed} failed");
+        self.ended.iter().all(|(_, good, _)| *good)
+    }
+}
+
+/// The cargo that runs this program.
+fn cargo() -> std::ffi::OsString {
+    std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
+}
+
+/// Passed and failed tests over all closing lines.
+fn sum(closing: &[String]) -> (u64, u64) {
+    let count = |line: &str, what: &str| -> u64 {
+        let before = line.split([';', '.']).find_map(|part| part.trim().strip_suffix(what));
+        before.and_then(|number| number.trim().parse().ok()).unwrap_or(0)
+    };
+    closing.iter().fold((0, 0), |sum, line| (sum.0 + count(line, "passed"), sum.1 + count(line, "failed")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn closing_lines_are_summed() {
+        let lines = [
+            "test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.01s",
+            "test result: FAILED. 3 passed; 2 failed; 0 ignored; 0 measured; 0 filtered out; finished in 1.20s",
+        ];
+        assert_eq!(sum(&lines.map(String::from)), (15, 2));
+        assert_eq!(sum(&[]), (0, 0));
+    }
+}

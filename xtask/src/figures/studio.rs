@@ -1,0 +1,165 @@
+//! What the figures share: baking a light, drawing a scene with a filter, the truth beside it, and masks.
+
+use crate::figure::{Context, Panel, Role};
+use glam::{DVec2, UVec2, Vec3};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, OnceLock};
+use umbrage_depth::{First, Raw, Tiled, quantise};
+use umbrage_oracle::metrics::{self, Grid};
+use umbrage_oracle::{Geometry, RayCast, heat};
+use umbrage_plane::{Kind, Sampling, View};
+use umbrage_raster::Cull;
+use umbrage_render::{Frame, Picture, Soup, bake, bind, picture};
+use umbrage_scene::Scene;
+use umbrage_shadow::{Filter, Shadow, Unshadowed};
+
+/// A scene set up for one figure: camera and map sizes chosen, light 0 baked.
+pub struct Set {
+    pub scene: Scene,
+    pub map: Tiled,
+}
+
+impl Set {
+    /// `pixels` across the camera's picture, `texels` across light 0's map, depth of its view's own kind.
+    pub fn new(scene: Scene, pixels: u32, texels: u32) -> Self {
+        Self::sampled(scene, pixels, texels, Sampling::Centre)
+    }
+
+    /// The same with the map sampled elsewhere in its texels.
+    pub fn sampled(mut scene: Scene, pixels: u32, texels: u32, sampling: Sampling) -> Self {
+        scene.camera = sized(&scene.camera, pixels);
+        scene.lights[0].view = sized(&scene.lights[0].view, texels).with_sampling(sampling);
+        let light = scene.lights[0].view;
+        let map = bake(&light, Soup::casters(&scene, &light).triangles(), &First, Cull::None).map;
+        Self { scene, map }
+    }
+
+    /// The map with depths rounded to integers of `bits` (W78-6); the light's view must be of screen depth.
+    pub fn quantised(&self, bits: u32) -> Tiled {
+        Tiled::from(&quantise(&Raw::from(&self.map), bits, false))
+    }
+
+    /// The picture with light 0's shadow by `filter` over this set's map.
+    pub fn shoot(&self, cx: &Context, filter: impl Filter + 'static, frame: &Frame) -> Picture {
+        self.shoot_map(cx, filter, &self.map, frame)
+    }
+
+    /// The same over another map of the same light.
+    pub fn shoot_map(&self, cx: &Context, filter: impl Filter + 'static, map: &Tiled, frame: &Frame) -> Picture {
+        let shadow = bind(filter, map, cx.storage);
+        self.draw(cx, &*shadow, frame)
+    }
+
+    /// The picture without any shadow.
+    pub fn plain(&self, cx: &Context, frame: &Frame) -> Picture {
+        self.draw(cx, &Unshadowed, frame)
+    }
+
+    fn draw(&self, cx: &Context, shadow: &dyn Shadow, frame: &Frame) -> Picture {
+        picture(&self.scene, &[shadow], &Frame { seed: cx.seed, ..*frame })
+    }
+
+    /// Rays at the very points that a method is asked at: one hard answer per region.
+    pub fn truth_points(&self, cx: &Context, frame: &Frame) -> Arc<Picture> {
+        self.ray_cast(cx, frame, "points")
+    }
+
+    /// Rays from 64 samples a pixel: what an area-sampled picture should be. 16 in a quick run.
+    pub fn truth(&self, cx: &Context) -> Arc<Picture> {
+        let axis = if cx.quick { 4 } else { 8 };
+        self.ray_cast(cx, &Frame { axis, stochastic: true, every_sample: true, ..Frame::default() }, "area")
+    }
+
+    /// Truth depends on scene, camera and frame alone: it is made once per run.
+    fn ray_cast(&self, cx: &Context, frame: &Frame, what: &str) -> Arc<Picture> {
+        static MADE: OnceLock<Mutex<HashMap<String, Arc<Picture>>>> = OnceLock::new();
+        let frame = Frame { seed: cx.seed, ..*frame };
+        let name = format!("{} {what} {:?} {frame:?}", self.scene.name, self.scene.camera);
+        let made = MADE.get_or_init(Mutex::default);
+        if let Some(known) = made.lock().ok().and_then(|made| made.get(&name).cloned()) {
+            return known;
+        }
+        let geometry = Geometry::new(&self.scene, &self.scene.camera);
+        let truth = Arc::new(picture(&self.scene, &[&RayCast::new(&geometry, &self.scene.lights[0].view)], &frame));
+        if let Ok(mut made) = made.lock() {
+            made.insert(name, truth.clone());
+        }
+        truth
+    }
+}
+
+fn sized(view: &View, across: u32) -> View {
+    let size = view.size();
+    let height = (u64::from(across) * u64::from(size.y) / u64::from(size.x.max(1))).max(1) as u32;
+    view.with_size(UVec2::new(across, height)).unwrap_or(*view)
+}
+
+/// The same scene with its light in another kind of depth.
+pub fn with_kind(mut scene: Scene, kind: Kind) -> Scene {
+    scene.lights[0].view = scene.lights[0].view.with_kind(kind);
+    scene
+}
+
+/// Pixels of one surface where metric M2 looks: wholly lit in truth, `border` pixels away from any shadow, facing the
+/// light by more than .05, and of an object that `keep` accepts.
+pub fn lit(truth: &Picture, border: usize, keep: impl Fn(u32) -> bool) -> Vec<bool> {
+    let lit = metrics::lit_mask(shadow_grid(truth), &truth.facing[0], border, 0.05);
+    metrics::both(&lit, &of(truth, keep))
+}
+
+/// Pixels wholly covered by an object that `keep` accepts.
+pub fn of(picture: &Picture, keep: impl Fn(u32) -> bool) -> Vec<bool> {
+    picture.object.iter().zip(&picture.share).map(|(&object, &share)| share == 1.0 && keep(object)).collect()
+}
+
+/// The shadow of light 0 as a metric's image.
+pub fn shadow_grid(picture: &Picture) -> Grid<'_> {
+    Grid::new(&picture.shadow[0], picture.size.x as usize)
+}
+
+/// A measure's value, NaN where there was nothing to measure: it meets no bound.
+pub fn value(measured: Option<f64>) -> f64 {
+    measured.unwrap_or(f64::NAN)
+}
+
+/// The shadow component as one looks at it: light where lit.
+pub fn shadow_panel(name: &str, caption: &str, picture: &Picture) -> Panel {
+    shadow_image_panel(name, caption, picture.size, &picture.shadow[0])
+}
+
+/// The same of a bare shadow image.
+pub fn shadow_image_panel(name: &str, caption: &str, size: UVec2, shadow: &[f32]) -> Panel {
+    Panel::grey(name, caption, size, shadow.iter().map(|s| 1.0 - s).collect())
+}
+
+/// The truth's panel of a figure.
+pub fn truth_panel(truth: &Picture) -> Panel {
+    shadow_panel("truth", "Ray-traced truth", truth).role(Role::Truth)
+}
+
+/// Result less truth as colours.
+pub fn error_panel(name: &str, caption: &str, size: UVec2, result: &[f32], truth: &[f32]) -> Panel {
+    let pixels = result.iter().zip(truth).map(|(r, t)| heat(r - t)).collect();
+    Panel::rgb(name, caption, size, pixels).role(Role::Error)
+}
+
+/// A square window of a picture about a fraction of its size, enlarged.
+pub fn zoomed(name: &str, caption: &str, picture: &Picture, centre: DVec2, part: u32) -> Panel {
+    let side = picture.size.x / part;
+    let from = (centre * picture.size.as_dvec2()).as_uvec2().saturating_sub(UVec2::splat(side / 2));
+    let (size, shadow) = crop(picture.size, &picture.shadow[0], from, UVec2::splat(side));
+    shadow_image_panel(name, caption, size, &shadow).zoom((384 / side.max(1)).max(1))
+}
+
+/// Cuts a window out of an image; what lies outside is left out.
+fn crop<T: Copy>(size: UVec2, image: &[T], from: UVec2, window: UVec2) -> (UVec2, Vec<T>) {
+    let window = window.min(size.saturating_sub(from));
+    let rows = (from.y..from.y + window.y)
+        .flat_map(|y| (from.x..from.x + window.x).map(move |x| image[(y * size.x + x) as usize]));
+    (window, rows.collect())
+}
+
+/// Linear grey for a colour picture's panel.
+pub fn colour_panel(name: &str, caption: &str, size: UVec2, pixels: &[Vec3]) -> Panel {
+    Panel::rgb(name, caption, size, pixels.to_vec())
+}

@@ -1,0 +1,93 @@
+//! What no compiler checks: dependency arrows, allowed packages, words that must not be there, file sizes, links.
+//!
+//! Each check is a function from text to findings, so that each can be shown to fail; this module walks the repository and
+//! hands them the text.
+
+mod arrows;
+mod files;
+mod sources;
+
+use anyhow::Context as _;
+use std::path::{Path, PathBuf};
+
+/// Every finding of the repository, a line each, in a fixed order.
+pub fn findings(root: &Path) -> anyhow::Result<Vec<String>> {
+    let mut paths = Vec::new();
+    walk(root, &mut paths)?;
+    let mut findings = Vec::new();
+    let mut fixtures = Vec::new();
+    for path in &paths {
+        let name = relative(root, path);
+        let length = path.metadata().with_context(|| name.clone())?.len();
+        findings.extend(files::too_large(&name, length));
+        if name.starts_with("fixtures/") {
+            fixtures.push(length);
+        }
+        let read = || std::fs::read_to_string(path).with_context(|| name.clone());
+        if name.ends_with("/Cargo.toml") {
+            findings.extend(arrows::manifest(&name, &read()?));
+        } else if path.extension().is_some_and(|end| end == "rs") {
+            findings.extend(sources::source(&name, &read()?));
+        } else if name.ends_with("README.md") {
+            let folder = path.parent().unwrap_or(root);
+            findings.extend(files::dead_links(&name, &read()?, |link| folder.join(link).exists()));
+        }
+    }
+    findings.extend(files::fixtures_too_large(&fixtures));
+    Ok(findings)
+}
+
+/// Every file below a folder, sorted; build results and git's own are passed over, links are not followed.
+fn walk(folder: &Path, paths: &mut Vec<PathBuf>) -> anyhow::Result<()> {
+    let entries = std::fs::read_dir(folder).with_context(|| folder.display().to_string())?;
+    let mut entries = entries.collect::<Result<Vec<_>, _>>()?;
+    entries.sort_by_key(std::fs::DirEntry::file_name);
+    for entry in entries {
+        let kind = entry.file_type()?;
+        if kind.is_dir() && entry.file_name() != "target" && entry.file_name() != ".git" {
+            walk(&entry.path(), paths)?;
+        } else if kind.is_file() {
+            paths.push(entry.path());
+        }
+    }
+    Ok(())
+}
+
+/// The path from the repository, with slashes.
+fn relative(root: &Path, path: &Path) -> String {
+    path.strip_prefix(root).unwrap_or(path).to_string_lossy().replace('\\', "/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_repository_is_walked_and_its_faults_are_told_by_file() {
+        let root = std::env::temp_dir().join(format!("umbrage-tidy-{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&root);
+        let put = |name: &str, text: &str| {
+            let path = root.join(name);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            umbrage_io::write_bytes(&path, text.as_bytes()).unwrap();
+        };
+        put(
+            "crates/umbrage-depth/Cargo.toml",
+            "[package]\nname = \"umbrage-depth\"\n[dependencies]\numbrage-raster = {}\n",
+        );
+        put("crates/umbrage-depth/src/lib.rs", "fn main() { dbg!(1); }");
+        put("README.md", "[here](crates/umbrage-depth/src/lib.rs) [gone](crates/gone.rs)");
+        put("target/debug/x.rs", "todo!()");
+        let findings = findings(&root).unwrap();
+        std::fs::remove_dir_all(&root).unwrap();
+        assert_eq!(
+            findings,
+            [
+                "README.md: there is no crates/gone.rs",
+                "crates/umbrage-depth/Cargo.toml: lints are not the workspace's",
+                "crates/umbrage-depth/Cargo.toml: umbrage-depth may not use umbrage-raster",
+                "crates/umbrage-depth/src/lib.rs:1: dbg! stands in code",
+            ]
+        );
+    }
+}
