@@ -81,7 +81,14 @@ impl Receiver {
             Bias::Texels(amount) => amount * self.texel_world.max_element(),
             Bias::Steps(amount) => {
                 let step = self.texel_world.max_element() * self.slope;
-                if step.is_finite() { amount * step } else { f32::INFINITY }
+                // Edge-on no finite step exists; none at all is still none.
+                if step.is_finite() {
+                    amount * step
+                } else if amount > 0.0 {
+                    f32::INFINITY
+                } else {
+                    0.0
+                }
             }
         };
         self.toward_light(view, world)

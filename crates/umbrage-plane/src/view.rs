@@ -395,7 +395,7 @@ impl View {
     pub fn receiver(&self, at: &SurfacePoint) -> Result<Receiver, Where> {
         let eye = self.world_to_eye.transform_point3(at.position.as_dvec3());
         let zeta = -eye.z;
-        if self.is_perspective() && !(zeta > 0.0) {
+        if self.is_perspective() && (zeta <= 0.0 || zeta.is_nan()) {
             return Err(Where::Behind);
         }
         if zeta < self.near && self.rules.near != Verdict::Compare {
@@ -434,7 +434,7 @@ impl View {
         let corners = at.corners.map(|corner: Vec3| self.world_to_eye.transform_point3(corner.as_dvec3()));
         let clipped = corners.map(|corner| {
             let zeta = -corner.z;
-            if self.is_perspective() && !(zeta >= nearest) {
+            if self.is_perspective() && (zeta < nearest || zeta.is_nan()) {
                 // Back along the line to the centre until it is in front of the light.
                 let t = (-eye.z - nearest) / (-eye.z - zeta);
                 self.eye_to_texel(eye + (corner - eye) * t)
@@ -453,7 +453,7 @@ impl View {
     pub fn derivative_footprint(&self, at: &SurfacePoint) -> Option<Footprint> {
         let to_texel = |point: Vec3| self.eye_to_texel(self.world_to_eye.transform_point3(point.as_dvec3()));
         let eye = self.world_to_eye.transform_point3(at.position.as_dvec3());
-        if self.is_perspective() && !(-eye.z > 0.0) {
+        if self.is_perspective() && (-eye.z <= 0.0 || eye.z.is_nan()) {
             return None;
         }
         let [a, b, c, d] = at.corners;

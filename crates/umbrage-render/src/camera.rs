@@ -1,6 +1,6 @@
 use crate::Soup;
 use crate::pass1::each_fragment;
-use glam::{DVec2, IVec2, UVec2, Vec3};
+use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
 use umbrage_plane::{Facet, SurfacePoint, View};
 use umbrage_raster::{Bins, TILE};
 
@@ -130,8 +130,8 @@ impl Gather<'_> {
         let position = self.view.world_at(centre, key);
         let (triangle, normals) = self.soup.corners(facet.triangle);
         let side = if front { 1.0 } else { -1.0 };
-        let edge = [triangle[1] - triangle[0], triangle[2] - triangle[0]].map(|edge| edge.as_dvec3());
-        let normal = edge[0].cross(edge[1]).normalize_or(glam::DVec3::Z) * side;
+        let edge = [triangle[1] - triangle[0], triangle[2] - triangle[0]].map(DVec3::from);
+        let normal = edge[0].cross(edge[1]).normalize_or(DVec3::Z) * side;
         let position = position.as_vec3();
         Region {
             point: SurfacePoint { position, normal: normal.as_vec3(), corners, region: 0, object: facet.object },
@@ -147,13 +147,13 @@ impl Gather<'_> {
 #[derive(PartialEq, Eq)]
 struct Surface {
     object: u32,
-    surface: u32,
+    piece: u32,
     front: bool,
 }
 
 impl Surface {
     fn of(soup: &Soup, facet: &Facet, at: DVec2) -> Self {
-        Self { object: facet.object, surface: soup.surface(facet.triangle), front: facet.facing.is_front(at) }
+        Self { object: facet.object, piece: soup.surface(facet.triangle), front: facet.facing.is_front(at) }
     }
 }
 

@@ -5,9 +5,7 @@ use umbrage_sample::{
     Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Pattern, Uniform,
 };
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
-use umbrage_shadow::{
-    Biased, Filter, OnPlane, Ordinary, Pcf, ReceiverDepth, Shadow, ShadowMap, Spread, Williams, presets,
-};
+use umbrage_shadow::{Filter, OnPlane, Ordinary, Pcf, ReceiverDepth, Shadow, ShadowMap, Spread, Williams, presets};
 
 /// How a map is kept while it is looked up. Answers are the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]

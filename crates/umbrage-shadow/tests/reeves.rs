@@ -250,15 +250,16 @@ fn r87_22_culling_changes_no_bit() {
     }
 }
 
+fn mean(pattern: impl umbrage_sample::Pattern, map: &Raw, region: &Receiver) -> f32 {
+    let filter = Pcf { pattern, depth: Biased::default(), res_factor: 1.0, min_size: 0.0, cull: false };
+    let shadow = ShadowMap { filter, map: map.clone() };
+    (0..4000).map(|i| shadow.fraction_of(region, KEY.region(i))).sum::<f32>() / 4000.0
+}
+
 #[test]
 fn r87_11_every_pattern_agrees_with_the_exhaustive_share_in_the_mean() {
     let checks = map(64, |x, y| if (x / 4 + y / 4) % 2 == 0 { 1.0 } else { f32::INFINITY });
     let region = receiver(&lamp(64), 10.0, Vec2::splat(32.0), Vec2::splat(8.0));
-    fn mean(pattern: impl umbrage_sample::Pattern, map: &Raw, region: &Receiver) -> f32 {
-        let filter = Pcf { pattern, depth: Biased::default(), res_factor: 1.0, min_size: 0.0, cull: false };
-        let shadow = ShadowMap { filter, map: map.clone() };
-        (0..4000).map(|i| shadow.fraction_of(region, KEY.region(i))).sum::<f32>() / 4000.0
-    }
     let jittered = Jittered::default();
     let means = [
         mean(EveryTexel, &checks, &region),

@@ -53,16 +53,16 @@ fn v39_w78_11_bias_is_one_row_of_the_matrix_d_8() {
     near(moved * DVec3::new(256.0, 256.0, 65_535.0), [0.002_199_1, 0.023_090_8, 0.227_461_9], 1e-6);
 }
 
-fn raw(view: View, depth: impl Fn(u32, u32) -> f32) -> Raw {
+fn raw(view: &View, depth: impl Fn(u32, u32) -> f32) -> Raw {
     let size = view.size();
-    Raw::new(view, (0..size.x * size.y).map(|i| depth(i % size.x, i / size.x)).collect()).unwrap()
+    Raw::new(*view, (0..size.x * size.y).map(|i| depth(i % size.x, i / size.x)).collect()).unwrap()
 }
 
 #[test]
 fn v44_w78_13_bilinear_depth_is_exact_on_planes() {
     let view = lamp(64);
     let surface = SurfacePoint::at(Vec3::new(2.0, 1.0, -3.0), DVec3::new(0.2, 1.0, 0.3).normalize().as_vec3());
-    let four = raw(view.with_kind(Kind::Screen), |x, y| match (x, y) {
+    let four = raw(&view.with_kind(Kind::Screen), |x, y| match (x, y) {
         (10, 20) => 10.0,
         (11, 20) => 12.0,
         (10, 21) => 14.0,
@@ -75,7 +75,7 @@ fn v44_w78_13_bilinear_depth_is_exact_on_planes() {
         let view = view.with_kind(kind);
         let receiver = view.receiver(&surface).unwrap();
         let plane = receiver.plane(&view);
-        let map = raw(view, |x, y| plane.at(view.sampling().position(glam::IVec2::new(x as i32, y as i32))));
+        let map = raw(&view, |x, y| plane.at(view.sampling().position(glam::IVec2::new(x as i32, y as i32))));
         for step in 0..1000 {
             let at = Vec2::new(35.0 + KEY.unit(step, 0) * 9.0, 17.0 + KEY.unit(step, 1) * 9.0);
             let exact = plane.at(at.as_dvec2());
@@ -90,7 +90,7 @@ fn v44_w78_13_bilinear_depth_is_exact_on_planes() {
 #[test]
 fn w78_14_silhouettes_are_not_blended_unless_asked() {
     let view = lamp(64).with_kind(Kind::Screen);
-    let map = raw(view, |x, _| if x < 32 { 0.5 } else { f32::INFINITY });
+    let map = raw(&view, |x, _| if x < 32 { 0.5 } else { f32::INFINITY });
     let receiver = view.receiver(&SurfacePoint::at(Vec3::new(0.0, 1.0, 0.0), Vec3::Y)).unwrap();
     let at = Vec2::new(32.25, 10.0);
     assert_eq!(bilinear(&map, at, Guard::default(), &receiver), f32::INFINITY);
@@ -112,8 +112,8 @@ fn v46d_w78_15_dither_laws() {
 #[test]
 fn w78_25_only_the_order_of_depths_matters_at_bias_zero() {
     let view = lamp(32);
-    let map = raw(view, |x, y| 5.0 + ((x * 5 + y * 13) % 17) as f32 * 0.5);
-    let warped = raw(view, |x, y| map.depth(glam::IVec2::new(x as i32, y as i32)).powi(3) * 0.01 - 7.0);
+    let map = raw(&view, |x, y| 5.0 + ((x * 5 + y * 13) % 17) as f32 * 0.5);
+    let warped = raw(&view, |x, y| map.depth(glam::IVec2::new(x as i32, y as i32)).powi(3) * 0.01 - 7.0);
     let filter = Williams { bias: Bias::ZERO, ..presets::williams78() };
     for step in 0..2000 {
         let zeta = 5.0 + KEY.unit(step, 0) * 9.0;
@@ -130,8 +130,10 @@ fn w78_25_only_the_order_of_depths_matters_at_bias_zero() {
 #[test]
 fn w78_8_outside_the_light_s_volume_everything_is_lit() {
     let view = lamp(32).with_rules(umbrage_plane::Rules::VOLUME);
-    let shadow =
-        ShadowMap { filter: Williams { lookup: Lookup::Nearest, ..presets::williams78() }, map: raw(view, |_, _| 2.0) };
+    let shadow = ShadowMap {
+        filter: Williams { lookup: Lookup::Nearest, ..presets::williams78() },
+        map: raw(&view, |_, _| 2.0),
+    };
     let at = |x: f32, y: f32| shadow.fraction(&SurfacePoint::at(Vec3::new(x, y, 0.0), Vec3::Y), KEY);
     assert_eq!([at(0.0, 0.0), at(30.0, 0.0), at(0.0, -95.0), at(0.0, 9.5)], [1.0, 0.0, 0.0, 0.0]);
 }

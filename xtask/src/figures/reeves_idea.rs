@@ -3,7 +3,7 @@
 use super::studio::{Set, colour_panel, error_panel, lit, of, shadow_grid, shadow_panel, truth_panel, value};
 use crate::figure::{Context, Figure, Made, Measure, Panel, Paper, Role, Table};
 use crate::plot::{Axis, Plot, Series};
-use glam::{UVec2, Vec2};
+use glam::{DVec2, UVec2, Vec2};
 use umbrage_depth::{DepthMap, Raw};
 use umbrage_oracle::metrics;
 use umbrage_plane::{Bias, Footprint, SurfacePoint, TexelRect};
@@ -11,7 +11,7 @@ use umbrage_render::{Frame, Picture};
 use umbrage_sample::{Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Uniform, each_tap};
 use umbrage_scene::gallery;
 use umbrage_shadow::as_printed::{self, Listing, RandRange, TextureRect};
-use umbrage_shadow::{Biased, Pcf, presets};
+use umbrage_shadow::{Biased, OnPlane, Pcf, presets};
 
 pub const F1: Figure = Figure {
     id: "R87-F1",
@@ -21,6 +21,17 @@ pub const F1: Figure = Figure {
     make: points_of_view,
 };
 
+/// Reeves' filter against the tangent plane: regions as large as those seen from far off need no larger bias then (R87-13).
+fn on_plane() -> Pcf<Jittered, OnPlane> {
+    Pcf {
+        depth: OnPlane { bias: Bias::World(0.35) },
+        pattern: Jittered::default(),
+        res_factor: 3.0,
+        min_size: 0.0,
+        cull: true,
+    }
+}
+
 fn points_of_view(cx: &Context) -> anyhow::Result<Made> {
     let pixels = cx.pick(512, 192);
     let set = Set::new(gallery::sphere_plane(), pixels, 1024);
@@ -28,7 +39,7 @@ fn points_of_view(cx: &Context) -> anyhow::Result<Made> {
     let seen_from = |view: &umbrage_plane::View| {
         let mut set = Set::new(set.scene.clone(), pixels, 1024);
         set.scene.camera = view.with_size(UVec2::splat(pixels)).unwrap_or(*view);
-        set.shoot(cx, presets::reeves87(), &Frame::default())
+        set.shoot(cx, on_plane(), &Frame::default())
     };
     let high = umbrage_plane::View::perspective(
         glam::DVec3::new(-95.0, -150.0, 190.0),
@@ -39,8 +50,9 @@ fn points_of_view(cx: &Context) -> anyhow::Result<Made> {
         600.0,
         UVec2::splat(pixels),
     )?;
-    let camera = set.shoot(cx, presets::reeves87(), &Frame::default());
+    let camera = set.shoot(cx, on_plane(), &Frame::default());
     let truth = set.truth_points(cx, &Frame::CENTRES);
+    let exact = set.truth(cx);
     let (mut lit, mut seen) = (0u32, 0u32);
     for i in 0..truth.object.len() {
         if truth.share[i] == 1.0 && truth.shadow[0][i] == 0.0 && truth.facing[0][i] > 0.2 {
@@ -60,7 +72,8 @@ fn points_of_view(cx: &Context) -> anyhow::Result<Made> {
             view("a-high-above", "View from high above the scene", &seen_from(&high)),
             view("b-light", "View from the light source", &seen_from(&light)),
             view("c-camera", "View from the camera", &camera),
-            truth_panel(&set.truth(cx)),
+            truth_panel(&exact),
+            error_panel("error", "The camera's shadow less truth", exact.size, &camera.shadow[0], &exact.shadow[0]),
         ],
         measures: vec![
             Measure::at_least("lit points that the light sees", f64::from(seen) / f64::from(lit), "share", 0.999),
@@ -141,8 +154,11 @@ fn slanted_region() -> Footprint {
         (0.611_877_9, 0.334_497_0),
         (0.610_133_0, 0.335_023_6),
     ];
-    Footprint::around(corners.map(|(s, t)| Vec2::new(s, t) * 1024.0)).scaled(3.0, 0.0, Vec2::splat(256.0))
+    Footprint::around(corners.map(|(s, t)| (DVec2::new(s, t) * 1024.0).as_vec2())).scaled(3.0, 0.0, Vec2::splat(256.0))
 }
+
+/// Calls back with every tap of a pattern in the figure's region.
+type TapsOf<'a> = dyn Fn(Key, &mut dyn FnMut(Vec2)) + 'a;
 
 fn placements(cx: &Context) -> anyhow::Result<Made> {
     let region = slanted_region();
@@ -150,7 +166,7 @@ fn placements(cx: &Context) -> anyhow::Result<Made> {
     let jittered = Jittered::default();
     let mut made = Made::default();
     let mut shares = Vec::new();
-    let mut draw = |name: &str, title: &str, taps: &dyn Fn(Key, &mut dyn FnMut(Vec2))| {
+    let mut draw = |name: &str, title: &str, taps: &TapsOf| {
         let (mut dots, mut inner, mut inside, mut all) = (Vec::new(), 0u32, 0u32, 0u32);
         for round in 0..keys {
             taps(Key::new(cx.seed, 0, 0).region(round), &mut |at| {
@@ -166,10 +182,10 @@ fn placements(cx: &Context) -> anyhow::Result<Made> {
         shares.push((4.0 * f64::from(inner) / f64::from(all), f64::from(inside) / f64::from(all)));
     };
     draw("a-uniform", "(a) uniform", &|key, each| {
-        each_tap(&Uniform { num_samples: 16 }, &region, key, |tap| each(tap.at))
+        each_tap(&Uniform { num_samples: 16 }, &region, key, |tap| each(tap.at));
     });
     draw("b-gaussian", "(b) Gaussian", &|key, each| {
-        each_tap(&Gaussian { num_samples: 16 }, &region, key, |tap| each(tap.at))
+        each_tap(&Gaussian { num_samples: 16 }, &region, key, |tap| each(tap.at));
     });
     draw("c-jittered", "(c) jittered", &|key, each| each_tap(&jittered, &region, key, |tap| each(tap.at)));
     draw("d1-inside", "(d) inside, by rejection", &|key, each| {
@@ -223,6 +239,12 @@ fn region_plot(title: &str, region: &Footprint, dots: Vec<(f64, f64)>) -> String
         .svg()
 }
 
+/// The box's soft edge by a pattern.
+fn soft_edge<P: Pattern + 'static>(set: &Set, cx: &Context, pattern: P) -> Picture {
+    let depth = Biased::world(1.2, 1.6);
+    set.shoot(cx, Pcf { pattern, depth, res_factor: 8.0, min_size: 0.0, cull: true }, &Frame::CENTRES)
+}
+
 /// Noise of each placement in a rendered soft edge, against the same placement's own limit of 1,024 samples.
 fn rendered_noise(cx: &Context, made: &mut Made) {
     let set = Set::new(gallery::box_plane(), cx.pick(384, 128), 1024);
@@ -230,16 +252,12 @@ fn rendered_noise(cx: &Context, made: &mut Made) {
         let (picture, limit) = (few(16), few(1024));
         value(metrics::rms(&picture.shadow[0], &limit.shadow[0], &penumbra(&limit)))
     };
-    fn shoot<P: Pattern + 'static>(set: &Set, cx: &Context, pattern: P) -> Picture {
-        let depth = Biased::world(1.2, 1.6);
-        set.shoot(cx, Pcf { pattern, depth, res_factor: 8.0, min_size: 0.0, cull: true }, &Frame::CENTRES)
-    }
     let jittered = |n| Jittered { num_samples: n, ..Jittered::default() };
-    let uniform = noise(&|n| shoot(&set, cx, Uniform { num_samples: n }));
-    let gaussian = noise(&|n| shoot(&set, cx, Gaussian { num_samples: n }));
-    let jitter = noise(&|n| shoot(&set, cx, jittered(n)));
-    let inside = noise(&|n| shoot(&set, cx, InsideQuadReject(jittered(n))));
-    let warped = noise(&|n| shoot(&set, cx, InsideQuadWarp(jittered(n))));
+    let uniform = noise(&|n| soft_edge(&set, cx, Uniform { num_samples: n }));
+    let gaussian = noise(&|n| soft_edge(&set, cx, Gaussian { num_samples: n }));
+    let jitter = noise(&|n| soft_edge(&set, cx, jittered(n)));
+    let inside = noise(&|n| soft_edge(&set, cx, InsideQuadReject(jittered(n))));
+    let warped = noise(&|n| soft_edge(&set, cx, InsideQuadWarp(jittered(n))));
     made.measures.extend([
         Measure::info("noise of (a) uniform, 16 samples (M6)", uniform, "rms share"),
         Measure::within("noise of (b) over (a)", gaussian / uniform, "ratio", 0.7, 1.3),
@@ -406,7 +424,7 @@ fn example(cx: &Context) -> anyhow::Result<Made> {
             colour_panel("truth", "Ray-traced truth", truth.size, &truth.colour).role(Role::Truth),
             error_panel("error", "Shadow less truth", picture.size, &picture.shadow[0], &truth.shadow[0]),
         ],
-        measures: vec![Measure::at_most("shift of the cast shadow's centroid", value(shift), "px", 1.0)],
+        measures: vec![Measure::at_most("shift of the cast shadow's centroid", value(shift), "px", 1.0).full_size(cx)],
         ..Made::default()
     })
 }

@@ -1,7 +1,9 @@
 //! Reeves, Salesin & Cook 1987, Figures 7 to 10, the float and pass-1 remarks, Table 2: what each parameter does.
 
 use super::reeves_idea::{PLANE, SPHERE, false_shadow, penumbra};
-use super::studio::{Set, error_panel, of, shadow_grid, shadow_panel, truth_panel, value, with_kind, zoomed};
+use super::studio::{
+    Set, error_panel, of, shadow_grid, shadow_panel, truth_panel, value, with_kind, zoomed, zoomed_error,
+};
 use crate::figure::{Context, Figure, Made, Measure, Panel, Paper, Table};
 use crate::plot::{Axis, Plot, Series};
 use glam::{DVec2, DVec3, UVec2};
@@ -10,9 +12,9 @@ use umbrage_oracle::metrics::{self, Band};
 use umbrage_oracle::predict;
 use umbrage_plane::{Bias, Kind, Sampling, TexelRect, View};
 use umbrage_render::{Frame, Picture};
-use umbrage_sample::{Jittered, Pattern, Uniform};
+use umbrage_sample::{Centre, Jittered, Pattern, Uniform};
 use umbrage_scene::{Scene, gallery};
-use umbrage_shadow::{Biased, Pcf, presets};
+use umbrage_shadow::{Biased, OnPlane, Pcf, presets};
 
 /// Percentage-closer filtering with a bias large enough that no acne mixes with what is measured (T-6).
 fn soft<P: Pattern>(pattern: P, res_factor: f32) -> Pcf<P> {
@@ -26,6 +28,8 @@ fn jittered(num_samples: u32) -> Jittered {
 /// Where the sphere scene's zooms look: the cast shadow's edge on the plane and the sphere's own terminator, as fractions of the picture.
 pub const CAST_EDGE: DVec2 = DVec2::new(0.70, 0.47);
 const TERMINATOR: DVec2 = DVec2::new(0.56, 0.47);
+/// Where the box scene's zooms look: the straight edge of the box's shadow.
+const BOX_EDGE: DVec2 = DVec2::new(0.475, 0.5);
 
 pub const F7: Figure = Figure {
     id: "R87-F7",
@@ -53,11 +57,14 @@ fn num_samples(cx: &Context) -> anyhow::Result<Made> {
         made.measures.push(Measure::at_most(&name, value(levels.map(f64::from)), "levels", f64::from(most)));
         if n <= 16 {
             let caption = format!("NumSamples {n}");
-            let panel = zoomed(&format!("n{n:02}"), &caption, &picture, DVec2::new(0.475, 0.5), 8);
+            let panel = zoomed(&format!("n{n:02}"), &caption, &picture, BOX_EDGE, 8);
             made.panels.push(panel.with("ResFactor", 8).with("map", "1024²").against("limit"));
         }
+        if n == 16 {
+            made.panels.push(zoomed_error("error", "16 samples less 1,024", &picture, &limit, BOX_EDGE, 8));
+        }
     }
-    let panel = zoomed("limit", "1,024 samples", &limit, DVec2::new(0.475, 0.5), 8);
+    let panel = zoomed("limit", "1,024 samples", &limit, BOX_EDGE, 8);
     made.panels.push(panel.role(crate::figure::Role::Truth));
     let slope = |points: &[(f64, f64)]| value(metrics::log_log_fit(points).map(|fit| fit.slope));
     made.measures.push(Measure::within(
@@ -112,12 +119,13 @@ fn res_factor(cx: &Context) -> anyhow::Result<Made> {
         // A missing edge is NaN and must stay one.
         shifts = if shift.is_nan() || shift > shifts { shift } else { shifts };
         if [1.0, 3.0, 8.0].contains(&factor) {
-            let panel =
-                zoomed(&format!("f{factor}"), &format!("ResFactor {factor}"), &picture, DVec2::new(0.475, 0.5), 8);
+            let panel = zoomed(&format!("f{factor}"), &format!("ResFactor {factor}"), &picture, BOX_EDGE, 8);
             made.panels.push(panel.with("NumSamples", 16).with("map", cx.pick("1024²", "512²")).against("truth"));
+            let (name, caption) = (format!("f{factor}-error"), format!("ResFactor {factor} less truth"));
+            made.panels.push(zoomed_error(&name, &caption, &picture, &truth, BOX_EDGE, 8));
         }
     }
-    let panel = zoomed("truth", "Ray-traced truth (a point light: a sharp edge)", &truth, DVec2::new(0.475, 0.5), 8);
+    let panel = zoomed("truth", "Ray-traced truth (a point light: a sharp edge)", &truth, BOX_EDGE, 8);
     made.panels.push(panel.role(crate::figure::Role::Truth));
     let steps = |n: u32| {
         let picture = set.shoot(cx, soft(jittered(n), 8.0), &Frame::CENTRES);
@@ -172,6 +180,8 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         {
             let panel = zoomed(letter, &format!("({letter}) {place}"), &picture, centre, 6);
             made.panels.push(panel.with("bias", &label).with("map", "1024²").against(&format!("truth-{place}")));
+            let caption = format!("({letter}) less truth");
+            made.panels.push(zoomed_error(&format!("{letter}-error"), &caption, &picture, &exact, centre, 6));
         }
     }
     for (place, centre) in [("edge on the plane", CAST_EDGE), ("self-shadow on the sphere", TERMINATOR)] {
@@ -183,7 +193,7 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
     made.measures = vec![
         Measure::within("plane, bias 0: false shadow (M2)", plane[0], "share", 0.40, 0.52),
         Measure::info("plane, (.2, .3)", plane[1], "share"),
-        Measure::at_most("plane, (.3, .4)", plane[2], "share", 0.03),
+        Measure::at_most("plane, (.3, .4)", plane[2], "share", 0.03).full_size(cx),
         Measure::within("sphere, bias 0", sphere[0], "share", 0.40, 0.52),
         Measure::info("sphere, (.2, .3)", sphere[1], "share"),
         Measure::info("sphere, (.3, .4)", sphere[2], "share"),
@@ -192,7 +202,8 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         Measure::within("terminator shift over prediction (D-11)", shift / predicted, "ratio", 0.65, 1.35),
         Measure::info("terminator shift, light fitted to the sphere", shift, "degrees"),
         Measure::at_least("pixels within 6° of the terminator", f64::from(seen), "px", 2000.0).full_size(cx),
-        Measure::at_most("cast edge moved from (.2, .3) to (.3, .4)", (edges[2] - edges[1]).abs(), "px", 0.5),
+        Measure::at_most("cast edge moved from (.2, .3) to (.3, .4)", (edges[2] - edges[1]).abs(), "px", 0.5)
+            .full_size(cx),
     ];
     Ok(made)
 }
@@ -256,6 +267,8 @@ fn map_size(cx: &Context) -> anyhow::Result<Made> {
         acne.push(false_shadow(&picture, &points, 8).0);
         let panel = zoomed(&format!("m{texels:04}"), &format!("Map {texels}²"), &picture, CAST_EDGE, 6);
         made.panels.push(panel.with("ResFactor", 3).with("bias", "0.3–0.4").against("truth"));
+        let (name, caption) = (format!("m{texels:04}-error"), format!("Map {texels}² less truth"));
+        made.panels.push(zoomed_error(&name, &caption, &picture, &truth, CAST_EDGE, 6));
         if texels == 1024 {
             let panel = zoomed("truth", "Ray-traced truth", &truth, CAST_EDGE, 6);
             made.panels.push(panel.role(crate::figure::Role::Truth));
@@ -292,17 +305,27 @@ fn float(cx: &Context) -> anyhow::Result<Made> {
     let jagged = |picture: &Picture| value(metrics::rms(&picture.shadow[0], &exact.shadow[0], &edge));
     let (whole_0, float_0) = shots(Bias::ZERO);
     let (whole_b, float_b) = shots(Bias::World(0.35));
-    // On the plane the largest nearest look-up error is half a step along each axis.
-    let (whole_s, float_s) = shots(Bias::Steps(0.75));
+    // Against the tangent plane at the very texel that is read no look-up error is left: what remains is the depth's own step.
+    let on_plane = |map: &Tiled| {
+        let quarter = OnPlane { bias: Bias::Map(0.25 / 65_535.0) };
+        let filter = Pcf { pattern: Centre, depth: quarter, res_factor: 0.0, min_size: 0.0, cull: true };
+        set.shoot_map(cx, filter, map, &Frame::CENTRES)
+    };
+    let (whole_s, float_s) = (on_plane(&whole), on_plane(&set.map));
     let (at_0, float_at_0) = (false_shadow(&whole_0, &truth, 3).0, false_shadow(&float_0, &truth, 3).0);
     let (stepped, smooth) = (false_shadow(&whole_s, &truth, 3).0, false_shadow(&float_s, &truth, 3).0);
     Ok(Made {
         panels: vec![
             shadow_panel("integer", "16-bit integers, bias 0", &whole_0).against("truth"),
             shadow_panel("float", "32-bit floats, bias 0", &float_0).against("truth"),
-            shadow_panel("integer-steps", "16-bit integers, bias ¾ of a depth step", &whole_s).against("truth"),
-            shadow_panel("float-steps", "32-bit floats, bias ¾ of a depth step", &float_s).against("truth"),
+            shadow_panel("integer-steps", "16-bit integers, compared with the tangent plane", &whole_s)
+                .with("bias", "¼ quantum")
+                .against("truth"),
+            shadow_panel("float-steps", "32-bit floats, compared with the tangent plane", &float_s)
+                .with("bias", "¼ quantum")
+                .against("truth"),
             truth_panel(&exact),
+            error_panel("error", "32-bit floats, bias 0, less truth", exact.size, &float_0.shadow[0], &exact.shadow[0]),
         ],
         measures: vec![
             Measure::info("16-bit: false shadow on the plane, bias 0 (M2)", at_0, "share"),
@@ -315,7 +338,7 @@ fn float(cx: &Context) -> anyhow::Result<Made> {
                 0.95,
                 1.05,
             ),
-            Measure::info("16-bit: false shadow, bias ¾ of a depth step", stepped, "share"),
+            Measure::at_least("16-bit: false shadow by the steps of z alone", stepped, "share", 0.1),
             Measure::at_most("float: the same", smooth, "share", 1e-3),
         ],
         ..Made::default()

@@ -145,10 +145,24 @@ pub fn error_panel(name: &str, caption: &str, size: UVec2, result: &[f32], truth
 
 /// A square window of a picture about a fraction of its size, enlarged.
 pub fn zoomed(name: &str, caption: &str, picture: &Picture, centre: DVec2, part: u32) -> Panel {
+    let (from, window, zoom) = window(picture, centre, part);
+    let (size, shadow) = crop(picture.size, &picture.shadow[0], from, window);
+    shadow_image_panel(name, caption, size, &shadow).zoom(zoom)
+}
+
+/// The same window of result less truth as colours.
+pub fn zoomed_error(name: &str, caption: &str, picture: &Picture, truth: &Picture, centre: DVec2, part: u32) -> Panel {
+    let (from, window, zoom) = window(picture, centre, part);
+    let (size, ours) = crop(picture.size, &picture.shadow[0], from, window);
+    let (_, exact) = crop(truth.size, &truth.shadow[0], from, window);
+    error_panel(name, caption, size, &ours, &exact).zoom(zoom)
+}
+
+/// Corner and size of a square window about a fraction of a picture's size, and how often its pixels are repeated.
+fn window(picture: &Picture, centre: DVec2, part: u32) -> (UVec2, UVec2, u32) {
     let side = picture.size.x / part;
     let from = (centre * picture.size.as_dvec2()).as_uvec2().saturating_sub(UVec2::splat(side / 2));
-    let (size, shadow) = crop(picture.size, &picture.shadow[0], from, UVec2::splat(side));
-    shadow_image_panel(name, caption, size, &shadow).zoom((384 / side.max(1)).max(1))
+    (from, UVec2::splat(side), (384 / side.max(1)).max(1))
 }
 
 /// Cuts a window out of an image; what lies outside is left out.
