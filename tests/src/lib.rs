@@ -1,1 +1,5 @@
-//! Cross-crate laws live in `tests/`; this library holds what they share.
+//! What no crate can show alone: laws that run from scene to picture, and the example of the README.
+
+#[doc = include_str!("../../README.md")]
+#[cfg(doctest)]
+pub struct Readme;

@@ -34,6 +34,7 @@
 //! This crate draws no triangles and computes no shadow.
 
 mod back_face;
+mod bandlimit;
 mod bbox;
 mod first;
 mod map;
@@ -46,6 +47,7 @@ mod second;
 mod tiled;
 
 pub use back_face::BackFace;
+pub use bandlimit::bandlimit;
 pub use bbox::Bbox;
 pub use first::First;
 pub use map::DepthMap;

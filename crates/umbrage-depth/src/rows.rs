@@ -6,10 +6,10 @@ use umbrage_plane::{TexelRect, floor_texel};
 /// Stored values from here on mean that no surface was seen (C-5).
 const NO_SURFACE: f32 = 1e30;
 
-/// The depth that a map keeps for `depth`: +∞ for no surface. NaN, which constructors reject, is no surface here.
+/// The depth that a map keeps for `depth`: +∞ for no surface. NaN and −∞, which are no depths, are no surface either.
 #[inline(always)]
 pub(crate) fn kept(depth: f32) -> f32 {
-    if depth < NO_SURFACE { depth } else { f32::INFINITY }
+    if depth < NO_SURFACE && depth > f32::NEG_INFINITY { depth } else { f32::INFINITY }
 }
 
 /// [`DepthMap::depth`] of depths that are kept row by row for `rect` alone.

@@ -25,7 +25,7 @@ impl Tile {
     /// From the depths of a tile, row by row from the top, of which the first `valid.x` columns and `valid.y` rows belong to the map
     /// (less than [`TILE`] only at its right and lower edge; more counts as [`TILE`]). `None` when no surface is among them.
     ///
-    /// Values of 1e30 or more and NaN become +∞, like all texels beyond `valid`, which never count.
+    /// Values of 1e30 or more, NaN and −∞ become +∞, like all texels beyond `valid`, which never count.
     pub fn new(mut depths: Box<[f32; AREA]>, valid: UVec2) -> Option<Self> {
         let valid = valid.min(UVec2::splat(TILE)).as_usizevec2();
         let mut range = NONE_YET;

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, UVec2};
 use proptest::prelude::*;
-use umbrage_depth::{Raw, quantise, quantum};
+use umbrage_depth::{Raw, bandlimit, quantise, quantum};
 use umbrage_plane::{Kind, View};
 
 fn screen(depths: &[f32]) -> Raw {
@@ -50,4 +50,14 @@ proptest! {
         prop_assert!((f64::from(low) - f64::from(a.min(b))).abs() <= 0.5 * quantum + 3e-8);
         prop_assert_eq!(&quantise(&once, bits, true), &once);
     }
+}
+
+#[test]
+fn w78_21_a_bandlimited_depth_is_the_depth_of_no_surface() {
+    let inf = f32::INFINITY;
+    let map = screen(&[0.25, 0.25, 0.75, 0.75, inf, 0.5]);
+    assert_eq!(bandlimit(&map, 0).depths(), map.depths());
+    let third = |a: f64, b: f64, c: f64| ((a + b + c) / 3.0) as f32;
+    let wanted = [0.25, third(0.25, 0.25, 0.75), third(0.25, 0.75, 0.75), 0.75, inf, 0.5];
+    assert_eq!(bandlimit(&map, 1).depths(), wanted);
 }

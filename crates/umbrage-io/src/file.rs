@@ -1,5 +1,5 @@
 use crate::error::{IoError, system};
-use std::fs::{File, OpenOptions};
+use std::fs::{File, Metadata, OpenOptions};
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -26,12 +26,20 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
     write_atomic(path, |file| file.write_all(bytes))
 }
 
-/// A regular file's bytes. Pipes and devices, which have no length to trust, are refused.
-pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, IoError> {
+/// A regular file's bytes, `most_bytes` at most. Pipes and devices, which have no length to trust, are refused.
+pub(crate) fn read_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, IoError> {
+    let regular = |facts: &Metadata| {
+        let no = || system(path, "read")(io::Error::other("not a regular file"));
+        if facts.is_file() { Ok(()) } else { Err(no()) }
+    };
+    // Asked before it is opened too: opening a pipe waits for somebody to write into it.
+    regular(&std::fs::metadata(path).map_err(system(path, "open"))?)?;
     let file = File::open(path).map_err(system(path, "open"))?;
     let facts = file.metadata().map_err(system(path, "examine"))?;
-    if !facts.is_file() {
-        return Err(system(path, "read")(io::Error::other("not a regular file")));
+    regular(&facts)?;
+    if facts.len() > most_bytes {
+        let problem = format!("{} bytes are more than {most_bytes}", facts.len());
+        return Err(system(path, "read")(io::Error::other(problem)));
     }
     let mut bytes = Vec::new();
     let length = usize::try_from(facts.len()).unwrap_or(usize::MAX);

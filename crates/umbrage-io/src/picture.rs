@@ -62,12 +62,15 @@ pub fn write_png_grey(path: &Path, size: UVec2, linear_grey: &[f32]) -> Result<(
     write_bytes(path, &encode_png_grey(size, linear_grey).map_err(|fault| fault.in_file(path))?)
 }
 
+/// Most pixels that are read.
+const MOST_PIXELS: u64 = 1 << 26;
+
 /// Reads a PNG file's codes; transparency is dropped, 16 bits become 8. At most 2²⁶ pixels.
 ///
 /// # Errors
 /// [`IoError`], when the system refuses or the file is no PNG of a size within the limit.
 pub fn read_png(path: &Path) -> Result<Codes, IoError> {
-    decode_png(&read_bytes(path)?).map_err(|fault| fault.in_file(path))
+    decode_png(&read_bytes(path, MOST_PIXELS * 8 + (1 << 20))?).map_err(|fault| fault.in_file(path))
 }
 
 /// As [`read_png`], from bytes.
@@ -75,7 +78,6 @@ pub fn read_png(path: &Path) -> Result<Codes, IoError> {
 /// # Errors
 /// A [`Fault`], when the bytes are no PNG of a size within the limit.
 pub fn decode_png(bytes: &[u8]) -> Result<Codes, Fault> {
-    const MOST_PIXELS: u64 = 1 << 26;
     let broken = |error: image::ImageError| Fault::new("PNG data", format!("{} bytes", bytes.len()), error);
     let mut limits = Limits::default();
     limits.max_alloc = Some(MOST_PIXELS * 8);

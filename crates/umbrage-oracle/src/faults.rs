@@ -33,6 +33,8 @@ pub struct Contact {
     pub toward: DVec2,
     /// World units of the receiver that a pixel's step in that direction spans.
     pub world_per_pixel: f64,
+    /// World units that a texel of the map spans there (spec D-9's τ).
+    pub world_per_texel: f64,
 }
 
 /// One fault: how much of it, and where.
@@ -51,9 +53,11 @@ pub struct Faults {
     pub acne: Fault,
     /// Light where truth is dark, away from its edges: mean, 0..1 (M8). Map: minus the light, −1..0.
     pub leak: Fault,
-    /// Lit gap between contacts and their shadows beyond truth's own: mean, world units (M7). Map: the gap in world
-    /// units at each pixel of it.
+    /// Lit gap between contacts and their shadows beyond truth's own: mean, world units (M7). A shadow that is lost altogether
+    /// counts with the way to the picture's border. Map: the gap in world units at each pixel of it.
     pub detachment: Fault,
+    /// The same mean in texels of the map; `None` without a contact that has a shadow.
+    pub detachment_texels: Option<f64>,
     /// Displacement of the ½-contour: mean, pixels, positive where the shadow is too small. Map: the same.
     pub edge_shift: Fault,
     /// Width between 10 % and 90 % beyond truth's own, pixels; negative when the edge is too sharp. Map: ±1 where only
@@ -70,10 +74,12 @@ pub fn faults(evidence: &Evidence) -> Faults {
     let dark = dark_mask(truth, facing, border, 0.0);
     let smooth = evidence.smooth.unwrap_or(truth);
     let soft = penumbra_mask(smooth.values);
+    let (detachment, detachment_texels) = detachment(evidence);
     Faults {
         acne: Fault { value: false_shadow(result.values, &lit), map: masked(&lit, |i| result.values[i]) },
         leak: Fault { value: leak(result.values, &dark), map: masked(&dark, |i| result.values[i] - 1.0) },
-        detachment: detachment(evidence),
+        detachment,
+        detachment_texels,
         edge_shift: edge_shift(result, truth, border),
         penumbra_width: softness(result, truth),
         noise: Fault {
@@ -122,15 +128,18 @@ fn softness(result: Grid, truth: Grid) -> Fault {
     Fault { value, map }
 }
 
-fn detachment(evidence: &Evidence) -> Fault {
+/// The fault in world units, and its mean in texels.
+fn detachment(evidence: &Evidence) -> (Fault, Option<f64>) {
     let mut map = vec![0.0; evidence.result.values.len()];
-    let mut gaps = Vec::new();
+    let (mut gaps, mut texels) = (Vec::new(), Vec::new());
     for contact in evidence.contacts {
         let own = contact_gap(evidence.truth, contact.foot, contact.toward);
         let gap = contact_gap(evidence.result, contact.foot, contact.toward);
-        if let (Some(own), Some(gap)) = (own, gap) {
+        if let Some(own) = own {
+            let gap = gap.unwrap_or_else(|| way_out(evidence.result, contact));
             let world = (gap - own).max(0.0) * contact.world_per_pixel;
             gaps.push(world);
+            texels.push(world / contact.world_per_texel);
             let direction = contact.toward.normalize_or_zero();
             let mut along = own;
             while along < gap {
@@ -139,7 +148,20 @@ fn detachment(evidence: &Evidence) -> Fault {
             }
         }
     }
-    Fault { value: (!gaps.is_empty()).then(|| gaps.iter().sum::<f64>() / gaps.len() as f64), map }
+    let mean = |values: &[f64]| (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64);
+    (Fault { value: mean(&gaps), map }, mean(&texels))
+}
+
+/// Pixels from a contact to the picture's border along its shadow.
+fn way_out(image: Grid, contact: &Contact) -> f64 {
+    let (foot, direction) = (contact.foot, contact.toward.normalize_or_zero());
+    let inside = |at: DVec2| at.cmpge(DVec2::ZERO).all() && at.x < image.width as f64 && at.y < image.height() as f64;
+    let steps = (image.width + image.height()) as u32 * 2;
+    (0..=steps)
+        .map(|step| f64::from(step) * 0.5)
+        .take_while(|&way| inside(foot + direction * way))
+        .last()
+        .unwrap_or(0.0)
 }
 
 /// M7 without a picture: the distance in world units from `foot` along `direction` (in its plane, need not be unit) to

@@ -2,6 +2,8 @@
 //!
 //! Lengths are in one unit of the caller's choice within a call (world units, or texels), angles in radians.
 
+use umbrage_plane::View;
+
 /// Share of a lit plane in false shadow under nearest look-up, bias drawn uniformly from `bias.0..=bias.1` (D-9).
 ///
 /// `g1`, `g2` ≥ 0 are the plane's depth steps per texel along the map's axes (τ·tanθ·|cosφ|, τ·tanθ·|sinφ|), in either
@@ -103,6 +105,14 @@ pub fn lit_share(angle: f64) -> f64 {
 /// Where the terminator crosses the disc's equator, in radii from its centre, positive toward the lit side (D-19).
 pub fn terminator_offset(angle: f64) -> f64 {
     -angle.cos()
+}
+
+/// World units that one quantum of `bits`-bit post-projective depth spans at the axial distance `zeta` (D-17, V46b):
+/// ζ²(f − n)/(fn·(2^bits − 1)) in perspective, (f − n)/(2^bits − 1) in an orthographic view.
+pub fn depth_step(view: &View, bits: u32, zeta: f64) -> f64 {
+    let (n, f) = (view.near(), view.far());
+    let share = if view.is_perspective() { zeta * zeta / (f * n) } else { 1.0 };
+    share * (f - n) / ((1u64 << bits.min(63)) - 1) as f64
 }
 
 /// Which surface of a caster the map keeps, as far as contact gaps care (D-10).

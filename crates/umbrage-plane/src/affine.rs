@@ -11,13 +11,12 @@ pub enum Kind {
     Screen,
     /// Euclidean distance from the light, in world units (cube and latitude-longitude maps).
     Radial,
-    /// Not a depth at all: the id of the nearest object.
-    Object,
 }
 
 /// A plane's key as an affine function of texel coordinates: `key(x, y) = c + dx·x + dy·y`.
 ///
-/// Keys are −1/ζ (perspective) or ζ (orthographic), so they grow away from the light. Kept in f64 and rounded once.
+/// Keys are −1/ζ (perspective) or ζ (orthographic), and z_s in views of [`Kind::Screen`], so they grow away from the light. Kept in
+/// f64 and rounded once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Affine {
     /// Key at texel position (0, 0), the map's upper left corner.
@@ -54,23 +53,43 @@ pub struct Decode {
 }
 
 impl Decode {
-    /// The stored depth of a key at a texel position. A perspective plane behind its own horizon (key ≥ 0) is at +∞.
+    /// The stored depth of a key at a texel position. A perspective plane behind its own horizon is at +∞.
     ///
     /// `+∞` keys (nothing there) stay `+∞`.
     #[inline(always)]
     pub fn depth(&self, key: f32, texel: DVec2) -> f32 {
-        self.depth_of_zeta(self.zeta(key), texel)
+        match self.kind {
+            // The key is the depth. Zero has one sign, so that the order in which equal keys arrive cannot be seen in a map's bits.
+            Kind::Screen if self.beyond_horizon(key) => f32::INFINITY,
+            Kind::Screen => key + 0.0,
+            Kind::Axial | Kind::Radial => self.depth_of_zeta(self.zeta(key), texel),
+        }
     }
 
-    /// The axial distance of a key, in world units; +∞ for keys of +∞ and behind a perspective plane's horizon (key ≥ 0).
+    /// The axial distance of a key, in world units; +∞ for keys of +∞ and behind a perspective plane's horizon (D-5).
     #[inline(always)]
     pub fn zeta(&self, key: f32) -> f64 {
-        if key == f32::INFINITY || (self.perspective && key >= 0.0) {
-            return f64::INFINITY;
+        if self.beyond_horizon(key) { f64::INFINITY } else { self.zeta_of(f64::from(key)) }
+    }
+
+    /// Whether a key belongs to nothing in front of the light: +∞, or −1/ζ ≥ 0 (z_s ≥ f/(f − n)) in perspective.
+    #[inline(always)]
+    fn beyond_horizon(&self, key: f32) -> bool {
+        let horizon = if self.kind == Kind::Screen { self.far / (self.far - self.near) } else { 0.0 };
+        key == f32::INFINITY || (self.perspective && f64::from(key) >= horizon)
+    }
+
+    /// The axial distance of a key before any horizon.
+    #[inline(always)]
+    pub(crate) fn zeta_of(&self, key: f64) -> f64 {
+        let (n, f) = (self.near, self.far);
+        match (self.kind, self.perspective) {
+            (Kind::Screen, true) => f * n / (f - key * (f - n)),
+            (Kind::Screen, false) => n + key * (f - n),
+            (_, true) => -1.0 / key,
+            // Zero has one sign here too.
+            (_, false) => key + 0.0,
         }
-        let key = f64::from(key);
-        // Zero has one sign, so that the order in which equal keys arrive cannot be seen in a map's bits.
-        if self.perspective { -1.0 / key } else { key + 0.0 }
     }
 
     /// The stored depth of an axial distance at a texel position, rounded once; +∞ stays +∞.
@@ -80,7 +99,7 @@ impl Decode {
             return f32::INFINITY;
         }
         match self.kind {
-            Kind::Axial | Kind::Object => zeta as f32,
+            Kind::Axial => zeta as f32,
             Kind::Screen => self.screen(zeta) as f32,
             Kind::Radial => (zeta * self.slant(texel)) as f32,
         }
@@ -159,26 +178,12 @@ impl DepthPlane {
 }
 
 /// Which side of a surface a view sees.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Facing {
     /// The outside: counter-clockwise as seen from the view.
     Front,
     /// The inside.
     Back,
-    /// Curved: front where the function is positive, evaluated at the texel's sample position.
-    Varies(Affine),
-}
-
-impl Facing {
-    /// True where the outside is seen.
-    #[inline(always)]
-    pub fn is_front(&self, texel: DVec2) -> bool {
-        match self {
-            Self::Front => true,
-            Self::Back => false,
-            Self::Varies(side) => side.at(texel) > 0.0,
-        }
-    }
 }
 
 /// One flat piece of surface as a view's texels see it: what the rasteriser hands to a depth rule.

@@ -37,7 +37,9 @@ impl Footprint {
     }
 
     /// Enlarged about its centre: half-extents times `factor`, then at least `min_half`, then at most `max_half`
-    /// (Reeves' `ResFactor` and `MinSize`, in that order). Corners scale alike.
+    /// (Reeves' `ResFactor` and `MinSize`, in that order; R87-12, R87-13). Corners scale alike, axis by axis, so that the box stays the
+    /// bounding box of the quadrilateral and all patterns look at one region: about the box's centre, not the quadrilateral's
+    /// centroid (a departure from R87-11 d). Where an axis without extent gets one, the region becomes the box.
     #[inline(always)]
     pub fn scaled(&self, factor: f32, min_half: f32, max_half: Vec2) -> Self {
         let half = (self.half * factor).max(Vec2::splat(min_half)).min(max_half.max(Vec2::ZERO));

@@ -44,6 +44,8 @@ impl Bias {
 /// A surface point as a light sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Receiver {
+    /// What its depth means; a map of another kind must not be asked about it (spec C-4).
+    pub kind: Kind,
     /// The region's image in the map.
     pub footprint: Footprint,
     /// Depth at the region's centre, in the map's kind.

@@ -22,8 +22,8 @@ impl Sampling {
         match self {
             Self::Centre => UVec2::splat(128),
             Self::Jittered { seed } => {
-                let bits =
-                    mix32(mix32(seed ^ (texel.x as u32)).wrapping_add((texel.y as u32).wrapping_mul(0x9E37_79B9)));
+                let column = mix32(mix32(seed).wrapping_add((texel.x as u32).wrapping_mul(0x85EB_CA6B)));
+                let bits = mix32(column.wrapping_add((texel.y as u32).wrapping_mul(0x9E37_79B9)));
                 UVec2::new(bits & 255, (bits >> 8) & 255)
             }
         }

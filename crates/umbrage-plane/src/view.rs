@@ -1,5 +1,5 @@
 use crate::{Affine, Decode, Footprint, Kind, Receiver, Rules, Sampling, SurfacePoint, Verdict, Where};
-use glam::{DMat4, DVec2, DVec3, DVec4, UVec2, Vec2, Vec3};
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, UVec2, Vec2, Vec3};
 
 /// How eye space is laid on the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +39,9 @@ pub enum ViewError {
         /// Far distance.
         far: f64,
     },
+    /// A cone of light whose tangent is not positive and finite.
+    #[error("view cone tangent {0} is not positive and finite")]
+    Cone(f64),
     /// A map side of 0 or more than 32,768 texels.
     #[error("view size {width} x {height} is not within 1..=32768 texels")]
     Size {
@@ -79,8 +82,10 @@ impl View {
         if !world_to_eye.is_finite() {
             return Err(ViewError::Placement("a matrix entry is not finite"));
         }
-        if world_to_eye.determinant().abs() < 1e-12 {
-            return Err(ViewError::Placement("the matrix cannot be inverted"));
+        if !is_rigid(world_to_eye) {
+            return Err(ViewError::Placement(
+                "the matrix is no rotation and shift: it scales, shears, mirrors or projects",
+            ));
         }
         let (Projection::Perspective { k: scale } | Projection::Orthographic { half: scale }) = projection;
         if !(scale.is_finite() && scale.cmpgt(DVec2::ZERO).all()) {
@@ -166,10 +171,15 @@ impl View {
     }
 
     /// The same view with a cone of light: `tan_half` is the tangent of its half-angle. Meaningless, and ignored, in an orthographic view.
-    #[must_use]
-    pub fn with_cone(mut self, tan_half: Option<f64>) -> Self {
+    ///
+    /// # Errors
+    /// [`ViewError::Cone`] unless the tangent is positive and finite.
+    pub fn with_cone(mut self, tan_half: Option<f64>) -> Result<Self, ViewError> {
+        if let Some(tan_half) = tan_half.filter(|tan_half| !(tan_half.is_finite() && *tan_half > 0.0)) {
+            return Err(ViewError::Cone(tan_half));
+        }
         self.cone = tan_half;
-        self
+        Ok(self)
     }
 
     /// The same view with a map of another size over the same field; its texels need not stay square.
@@ -279,17 +289,28 @@ impl View {
     #[inline(always)]
     pub fn world_at(&self, texel: DVec2, key: f64) -> DVec3 {
         let screen = DVec2::new(2.0, -2.0) * texel / self.size.as_dvec2() + DVec2::new(-1.0, 1.0);
+        let zeta = self.decode().zeta_of(key);
         let eye = match self.projection {
-            Projection::Perspective { k } => (screen / k).extend(-1.0) * (-1.0 / key),
-            Projection::Orthographic { half } => (screen * half).extend(-key),
+            Projection::Perspective { k } => (screen / k).extend(-1.0) * zeta,
+            Projection::Orthographic { half } => (screen * half).extend(-zeta),
         };
         self.eye_to_world.transform_point3(eye)
     }
 
-    /// The key of an axial distance: −1/ζ in perspective, ζ in an orthographic view.
+    /// The key of an axial distance: −1/ζ in perspective, ζ in an orthographic view; z_s in a view of [`Kind::Screen`], so that
+    /// the integer depths of Williams are exact however far the narrow range between near and far is.
     #[inline(always)]
     pub fn key(&self, zeta: f64) -> f64 {
-        if self.is_perspective() { -1.0 / zeta } else { zeta }
+        match self.kind {
+            Kind::Screen => self.decode().screen(zeta),
+            Kind::Axial | Kind::Radial => {
+                if self.is_perspective() {
+                    -1.0 / zeta
+                } else {
+                    zeta
+                }
+            }
+        }
     }
 
     /// The plane through `eye_point` with `eye_normal` (need not be unit) as a key over texels; `None` when it is edge-on to the light, so that no key exists (spec D-1, D-3).
@@ -313,7 +334,21 @@ impl View {
                 Affine { c: (ny - nx - through) * scale, dx: 2.0 / size.x * nx * scale, dy: -2.0 / size.y * ny * scale }
             }
         };
+        let plane = if self.kind == Kind::Screen { self.screen_plane(plane) } else { plane };
         (plane.c.is_finite() && plane.dx.is_finite() && plane.dy.is_finite()).then_some(plane)
+    }
+
+    /// z_s of a plane of −1/ζ or ζ: both are affine in it.
+    #[inline(always)]
+    fn screen_plane(&self, plane: Affine) -> Affine {
+        let (n, f) = (self.near, self.far);
+        if self.is_perspective() {
+            let scale = f * n / (f - n);
+            Affine { c: f / (f - n) + plane.c * scale, dx: plane.dx * scale, dy: plane.dy * scale }
+        } else {
+            let scale = 1.0 / (f - n);
+            Affine { c: (plane.c - n) * scale, dx: plane.dx * scale, dy: plane.dy * scale }
+        }
     }
 
     /// How this view's keys become stored depths.
@@ -340,7 +375,7 @@ impl View {
     pub fn depth(&self, eye: DVec3) -> f32 {
         let zeta = -eye.z;
         match self.kind {
-            Kind::Axial | Kind::Object => zeta as f32,
+            Kind::Axial => zeta as f32,
             Kind::Screen => self.decode().screen(zeta) as f32,
             Kind::Radial => {
                 if self.is_perspective() {
@@ -413,6 +448,7 @@ impl View {
             Projection::Orthographic { .. } => (DVec3::Z, normal.truncate().length() / normal.z.abs()),
         };
         Ok(Receiver {
+            kind: self.kind,
             footprint: self.footprint(at, eye),
             depth: self.depth(eye),
             texel_world: self.texel_world(zeta).as_vec2(),
@@ -444,7 +480,15 @@ impl View {
             .as_vec2()
         });
         let whole = Footprint::around(clipped);
-        whole.scaled(1.0, 0.0, self.size.as_vec2() * 0.25)
+        let most = self.size.as_vec2() * 0.25;
+        if whole.half.cmple(most).all() {
+            return whole;
+        }
+        // A box that is cut to size must still lie around the point that is asked about.
+        let capped = whole.scaled(1.0, 0.0, most);
+        let shift = centre.clamp(whole.centre - whole.half + capped.half, whole.centre + whole.half - capped.half)
+            - whole.centre;
+        Footprint { centre: capped.centre + shift, corners: capped.corners.map(|corner| corner + shift), ..capped }
     }
 
     /// The footprint by derivatives instead of exact corners: half-extent = ½(|∂/∂x| + |∂/∂y|) for the region's two axes (spec D-7, second method).
@@ -464,6 +508,14 @@ impl View {
         let half = (central(across).abs() + central(down).abs()) * 0.5;
         Some(Footprint::boxed(self.eye_to_texel(eye).as_vec2(), half.as_vec2()))
     }
+}
+
+/// A rotation and a shift, to 1e-6.
+fn is_rigid(matrix: DMat4) -> bool {
+    let rotation = DMat3::from_mat4(matrix);
+    (rotation * rotation.transpose()).abs_diff_eq(DMat3::IDENTITY, 1e-6)
+        && rotation.determinant() > 0.0
+        && matrix.row(3) == DVec4::W
 }
 
 fn look_at(eye: DVec3, target: DVec3, up: DVec3) -> Result<DMat4, ViewError> {

@@ -1,6 +1,7 @@
-//! The published numbers of planes and projections: vectors V31, V35–V43 and V67, and the six places of C-10.
+//! The published numbers of planes and projections: vectors V31, V35–V37, V40–V43 and V67, the units of bias (C-11, C-12), and the
+//! six places of C-10. World and eye space are right-handed, rows go down (C-1, C-3).
 
-use glam::{DVec2, DVec3, DVec4, IVec2, UVec2, Vec2, Vec3};
+use glam::{DMat4, DVec2, DVec3, DVec4, IVec2, UVec2, Vec2, Vec3};
 use umbrage_plane::{Bias, Footprint, Kind, Rules, SurfacePoint, TexelRect, Verdict, View, Where};
 
 const P: Vec3 = Vec3::new(2.0, 1.0, -3.0);
@@ -88,7 +89,7 @@ fn v37_inverse_distance_is_affine_and_distance_is_not() {
 
 #[test]
 fn v40_world_bias_in_screen_depth_d_8() {
-    // Ninety of a hundred lamps see the point at ζ = 9.3; moved .3 toward the light it stands at ζ = 9.
+    // The point stands at ζ = 9.3; moved .3 toward the light it would stand at 9.
     let view = lamp(64).with_kind(Kind::Screen);
     let receiver = view.receiver(&SurfacePoint::at(Vec3::new(0.0, 0.7, 0.0), Vec3::Y)).unwrap();
     let moved = f64::from(receiver.depth) - f64::from(receiver.nearer(&view, Bias::World(0.3)));
@@ -97,7 +98,7 @@ fn v40_world_bias_in_screen_depth_d_8() {
 
 #[test]
 fn v41_horizon_and_edge_on_d_5() {
-    let view = lamp(64).with_kind(Kind::Screen);
+    let view = lamp(64);
     let through = SurfacePoint::at(Vec3::new(-2.0, 0.0, 0.0), DVec3::new(1.0, 0.05, 0.0).normalize().as_vec3());
     let receiver = view.receiver(&through).unwrap();
     let key = view.affine(receiver.eye, DVec3::new(1.0, 0.0, 0.05)).unwrap();
@@ -106,6 +107,10 @@ fn v41_horizon_and_edge_on_d_5() {
     }
     // Behind its own horizon a plane is farther than anything that is stored: shadow against any finite depth.
     assert_eq!(receiver.plane(&view).at(DVec2::new(48.0, 32.0)), f32::INFINITY);
+    let screen = view.with_kind(Kind::Screen);
+    let plane = screen.receiver(&through).unwrap().plane(&screen);
+    assert_eq!(plane.at(DVec2::new(48.0, 32.0)), f32::INFINITY);
+    close(plane.key.at(DVec2::new(48.0, 32.0)), 1.191_919_2, 1e-6);
     assert_eq!(view.affine(DVec3::new(0.0, 1.0, -9.0), DVec3::X), None);
     let edge_on = view.receiver(&SurfacePoint::at(Vec3::new(0.0, 1.0, 0.0), Vec3::X)).unwrap();
     assert_eq!(edge_on.plane(&view).at(DVec2::new(40.0, 3.0)), edge_on.depth);
@@ -176,7 +181,7 @@ fn v67_effective_slope_and_cone_guarantee_d_15() {
 
 #[test]
 fn c_10_places_and_rules() {
-    let view = lamp(64).with_rules(Rules::SPOT).with_cone(Some(1.0));
+    let view = lamp(64).with_rules(Rules::SPOT).with_cone(Some(1.0)).unwrap();
     assert_eq!(view.receiver(&SurfacePoint::at(Vec3::new(0.0, 11.0, 0.0), Vec3::Y)), Err(Where::Behind));
     assert_eq!(view.locate(Vec2::new(-0.001, 5.0)), Where::Outside);
     assert_eq!(view.locate(Vec2::new(64.0, 5.0)), Where::Outside);
@@ -207,10 +212,74 @@ fn c_12_texels_need_not_be_square() {
 #[test]
 fn e_r15_corners_behind_the_light_are_cut_off() {
     let view = lamp(64);
-    let corners = [(-30.0, 30.0), (30.0, 30.0), (30.0, 5.0), (-30.0, 5.0)].map(|(x, y)| Vec3::new(x, y, -1.0));
-    let region = SurfacePoint { position: Vec3::new(0.0, 9.0, -1.0), corners, ..surface() };
+    let corners = [(-2.0, 10.5), (2.0, 10.5), (2.0, 5.0), (-2.0, 5.0)].map(|(x, y)| Vec3::new(x, y, 0.0));
+    let region = SurfacePoint { position: Vec3::new(0.0, 7.0, 0.0), corners, ..surface() };
+    // Two corners stand at ζ = 5 and x = ±2: at x_n = ±.4, texels 32 ± 12.8. The others, behind the light, are cut at a
+    // sixteenth of the centre's ζ = 3 on their way from it: far outside, so that the quarter of the map is what is left.
+    let cut = view.receiver(&region).unwrap().footprint;
+    assert_eq!((cut.centre, cut.half), (Vec2::splat(32.0), Vec2::new(16.0, 0.0)));
+    // Nearer the axis nothing need be capped: x = ±.01 at ζ = .1875, 32 · .01 · (t = 2.8125 / 3.5) / .1875 texels.
+    let thin = SurfacePoint {
+        corners: [(-0.01, 10.5), (0.01, 10.5), (0.01, 5.0), (-0.01, 5.0)].map(|(x, y)| Vec3::new(x, y, 0.0)),
+        ..region
+    };
+    close(f64::from(view.receiver(&thin).unwrap().footprint.half.x), 32.0 * 0.01 * (2.8125 / 3.5) / 0.1875, 1e-5);
+}
+
+#[test]
+fn a_capped_footprint_still_lies_around_its_point() {
+    let view = lamp(64);
+    let corners = [(-0.5, 9.0), (40.0, 9.0), (40.0, 9.0), (-0.5, 9.0)].map(|(x, y)| Vec3::new(x, y, 0.0));
+    let region = SurfacePoint { position: Vec3::new(0.0, 9.0, 0.0), corners, ..surface() };
     let footprint = view.receiver(&region).unwrap().footprint;
-    assert!(footprint.centre.is_finite() && footprint.half.max_element() <= 16.0, "{footprint:?}");
+    assert_eq!(footprint.half.x, 16.0);
+    assert!((footprint.centre.x - 32.0).abs() <= 16.0, "{footprint:?}");
+}
+
+#[test]
+fn c_11_c_12_every_unit_of_bias_is_the_same_distance_by_another_name() {
+    // 128 × 32 texels over 90° in height: at ζ = 8 a texel is .5 high and, with square texels kept, .5 wide.
+    let eye = DVec3::new(0.0, 8.0, 0.0);
+    let make = |size| View::perspective(eye, DVec3::ZERO, DVec3::NEG_Z, 90f64.to_radians(), 1.0, 100.0, size).unwrap();
+    let view = make(UVec2::new(128, 32));
+    let at = SurfacePoint::at(Vec3::ZERO, DVec3::new(3.0, 4.0, 0.0).normalize().as_vec3());
+    let receiver = view.receiver(&at).unwrap();
+    assert_eq!(receiver.texel_world, Vec2::splat(0.5));
+    close(f64::from(receiver.slope), 0.75, 1e-6);
+    let moved = |view: &View, bias| {
+        f64::from(view.receiver(&at).unwrap().depth - view.receiver(&at).unwrap().nearer(view, bias))
+    };
+    close(moved(&view, Bias::World(0.25)), 0.25, 1e-6);
+    close(moved(&view, Bias::Texels(2.0)), 1.0, 1e-6);
+    close(moved(&view, Bias::Steps(2.0)), 0.75, 1e-6);
+    close(moved(&view, Bias::Map(0.125)), 0.125, 1e-6);
+    // Half the columns over the same field: texels are twice as wide as high, and the larger side counts.
+    let wide = view.with_size(UVec2::new(64, 32)).unwrap();
+    assert_eq!(wide.receiver(&at).unwrap().texel_world, Vec2::new(1.0, 0.5));
+    close(moved(&wide, Bias::Texels(2.0)), 2.0, 1e-6);
+    // Edge-on a step has no end, but none is still none.
+    let edge_on = SurfacePoint::at(Vec3::ZERO, Vec3::X);
+    let receiver = view.receiver(&edge_on).unwrap();
+    assert_eq!(receiver.nearer(&view, Bias::Steps(0.0)), receiver.depth);
+    assert_eq!(receiver.nearer(&view, Bias::Steps(1.0)), f32::NEG_INFINITY);
+}
+
+#[test]
+fn d_17_screen_keys_are_the_depths_however_far_and_narrow_the_range() {
+    let view = View::orthographic(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, 1000.0, 1001.0, UVec2::splat(8)).unwrap();
+    let screen = view.with_kind(Kind::Screen);
+    for step in 0..=64 {
+        let zeta = 1000.0 + f64::from(step) / 64.0;
+        let depth = screen.decode().depth(screen.key(zeta) as f32, DVec2::ZERO);
+        assert_eq!(depth, (f64::from(step) / 64.0) as f32);
+        close(screen.decode().zeta(screen.key(zeta) as f32), zeta, 1e-6);
+    }
+    let lamp = lamp(64).with_kind(Kind::Screen);
+    for zeta in [1.0, 1.001, 1.5, 9.0, 99.0] {
+        close(lamp.decode().zeta(lamp.key(zeta) as f32) / zeta, 1.0, 1e-5);
+        let at = lamp.world_at(DVec2::new(20.0, 40.0), lamp.key(zeta));
+        close(-lamp.world_to_eye().transform_point3(at).z, zeta, 1e-9);
+    }
 }
 
 #[test]
@@ -233,4 +302,19 @@ fn views_refuse_what_they_cannot_mean() {
         assert!(bad.is_err());
     }
     assert!(View::perspective(DVec3::Y, DVec3::ZERO, DVec3::Y, 1.0, 1.0, 2.0, UVec2::ONE).is_err());
+    let projection = make(1.0, 1.0, 2.0, 1).unwrap().projection();
+    let with = |matrix| View::new(matrix, projection, 1.0, 2.0, UVec2::ONE);
+    let turned = DMat4::from_rotation_y(0.3) * DMat4::from_translation(DVec3::new(3.0, -2.0, 7.0));
+    assert!(with(turned).is_ok());
+    let sheared = DMat4::from_cols(DVec4::X, DVec4::new(0.5, 1.0, 0.0, 0.0), DVec4::Z, DVec4::W);
+    let projecting = DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::new(0.0, 0.0, 1.0, 1.0), DVec4::W);
+    let mirrored = DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0));
+    for bad in [DMat4::from_scale(DVec3::splat(2.0)), mirrored, sheared, projecting, DMat4::ZERO] {
+        assert!(with(bad * turned).is_err(), "{bad}");
+    }
+    let view = with(turned).unwrap();
+    assert!(view.with_cone(Some(0.5)).is_ok() && view.with_cone(None).is_ok());
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(view.with_cone(Some(bad)).is_err(), "{bad}");
+    }
 }

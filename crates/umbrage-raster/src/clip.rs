@@ -12,7 +12,7 @@ pub(crate) const GUARD_TEXELS: f64 = 2_097_152.0;
 
 /// Perspective geometry is cut at this fraction of the near distance. Casters between the light and the near plane must not vanish (C-10),
 /// but ζ = 0 cannot be projected.
-const NEAR_LIMIT: f64 = 1.0 / 1024.0;
+pub(crate) const NEAR_LIMIT: f64 = 1.0 / 1024.0;
 
 /// Cuts polygons; holds the memory it works in.
 #[derive(Default)]

@@ -32,7 +32,9 @@
 //! * What a facet covers is a function of the view and the triangle; neither tiles, windows nor the order of calls change it.
 //!
 //! Conventions are those of [`umbrage_plane`]. This crate knows no depth test and no shadow; it does not clamp depths to the near plane
-//! either (C-10): a facet's key nearer than `view.key(view.near())` is for the depth pass to clamp.
+//! either (C-10): a facet's key nearer than `view.key(view.near())` is for the depth pass to clamp. In perspective nothing can be
+//! projected at the light itself: what is nearer than 1/1024 of the near distance is cut off, and counted
+//! ([`Stats::too_near`]).
 
 mod bins;
 mod clip;
@@ -90,8 +92,11 @@ pub struct Stats {
     pub missed: u64,
     /// Cut at the near limit or at the guard band.
     pub clipped: u64,
-    /// Nearer than the near plane somewhere; their depths are clamped to it.
+    /// Nearer than the near plane somewhere; the depth pass clamps their depths to it.
     pub before_near: u64,
+    /// In front of a perspective view, but nearer than 1/1024 of its near distance somewhere: that part is cut off, and with it
+    /// whatever shadow it throws (C-10). Also counted where they were kept or skipped.
+    pub too_near: u64,
 }
 
 impl Stats {

@@ -1,6 +1,6 @@
 //! From a triangle of the world to the record that tiles are filled from.
 
-use crate::clip::{Clipper, GUARD_TEXELS};
+use crate::clip::{Clipper, GUARD_TEXELS, NEAR_LIMIT};
 use crate::{Cull, Stats, Triangle};
 use glam::{DMat4, DVec3, IVec2, Vec3};
 use umbrage_plane::{Affine, Facet, Facing, Sampling, TexelRect, View};
@@ -101,7 +101,7 @@ impl<'a> Setup<'a> {
             return Err(Skip::NotFinite);
         }
         let world = triangle.corners.map(Vec3::as_dvec3);
-        // Differences of the world's f32 numbers are exact in f64; those of eye space are not.
+        // Differences of the world's f32 numbers are exact in f64 unless one is 2²⁹ times the other; those of eye space are not.
         let edges = [world[1] - world[0], world[2] - world[0]];
         if edges[0].cross(edges[1]) == DVec3::ZERO {
             return Err(Skip::ZeroArea);
@@ -111,6 +111,9 @@ impl<'a> Setup<'a> {
         if !eye.iter().all(|corner| corner.is_finite()) {
             return Err(Skip::NotFinite);
         }
+        let limit = self.view.near() * NEAR_LIMIT;
+        let too_near = |corner: &DVec3| -corner.z > 0.0 && -corner.z < limit;
+        self.stats.too_near += u64::from(self.view.is_perspective() && eye.iter().any(too_near));
         let projected = self.clipper.project(self.view, eye);
         if projected.corners.len() < 3 {
             return Err(Skip::Outside);

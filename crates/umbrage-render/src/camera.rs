@@ -1,7 +1,7 @@
 use crate::Soup;
 use crate::pass1::each_fragment;
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
-use umbrage_plane::{Facet, SurfacePoint, View};
+use umbrage_plane::{Facet, Facing, SurfacePoint, View};
 use umbrage_raster::{Bins, TILE};
 
 /// A piece of one surface within one pixel: what is shaded once (R87-8).
@@ -42,19 +42,25 @@ pub(crate) struct Gather<'a> {
 }
 
 impl Gather<'_> {
-    /// The regions of a tile in pixel order, and the number of fragments met.
-    pub fn tile(&self, tile: UVec2) -> (Vec<Region>, u64) {
+    /// The regions of a tile in pixel order, the number of fragments met, and how many of them were nearer than all before.
+    pub fn tile(&self, tile: UVec2) -> (Vec<Region>, u64, u64) {
         let origin = (tile * TILE).as_ivec2();
         let mut facets: Vec<Facet> = Vec::new();
         let mut samples = vec![NONE; (TILE * TILE) as usize];
-        let mut fragments = 0;
+        // What is nearer than the camera's near plane is not seen.
+        let nearest = self.view.key(self.view.near()) as f32;
+        let (mut fragments, mut passing) = (0, 0);
         self.bins.tile(tile, |facet, coverage| {
             let index = facets.len() as u32;
             facets.push(*facet);
-            each_fragment(self.view, origin, facet, coverage, |cell, key, _| {
+            each_fragment(self.view, origin, facet, coverage, |cell, key| {
+                if key < nearest {
+                    return;
+                }
                 fragments += 1;
                 // Facets come in the order of their triangles: at equal keys the first stays.
                 if key < samples[cell].key {
+                    passing += 1;
                     samples[cell] = Sample { key, facet: index };
                 }
             });
@@ -67,7 +73,7 @@ impl Gather<'_> {
                 self.pixel(origin, corner, pixel, &samples, &facets, &mut regions);
             }
         }
-        (regions, fragments)
+        (regions, fragments, passing)
     }
 
     fn pixel(
@@ -85,7 +91,7 @@ impl Gather<'_> {
             let sample = samples[(at.y * TILE + at.x) as usize];
             let Some(facet) = facets.get(sample.facet as usize) else { continue };
             let position = self.view.sampling().position(origin + at.as_ivec2());
-            let surface = Surface::of(self.soup, facet, position);
+            let surface = Surface::of(self.soup, facet);
             let group = groups.iter_mut().find(|(known, _)| *known == surface && !self.every_sample);
             match group {
                 Some((_, members)) => members.push((position, sample.facet)),
@@ -152,8 +158,8 @@ struct Surface {
 }
 
 impl Surface {
-    fn of(soup: &Soup, facet: &Facet, at: DVec2) -> Self {
-        Self { object: facet.object, piece: soup.surface(facet.triangle), front: facet.facing.is_front(at) }
+    fn of(soup: &Soup, facet: &Facet) -> Self {
+        Self { object: facet.object, piece: soup.surface(facet.triangle), front: facet.facing == Facing::Front }
     }
 }
 

@@ -28,7 +28,7 @@ mod recipe;
 mod shade;
 mod soup;
 
-pub use pass1::{Baked, bake};
+pub use pass1::{Baked, advised_map_sizes, bake};
 pub use picture::{Frame, NOTHING, Picture, picture};
 pub use recipe::{Recipe, RecipeError, Storage, bind};
 pub use soup::Soup;

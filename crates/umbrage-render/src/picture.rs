@@ -3,7 +3,7 @@ use crate::camera::{Gather, Region};
 use crate::shade::shade;
 use glam::{UVec2, Vec3};
 use rayon::prelude::*;
-use umbrage_plane::{Sampling, SurfacePoint, TexelRect, View};
+use umbrage_plane::{Kind, Sampling, SurfacePoint, TexelRect, View};
 use umbrage_raster::{Bins, Cull, TILE};
 use umbrage_sample::Key;
 use umbrage_scene::Scene;
@@ -44,7 +44,7 @@ impl Frame {
             Sampling::Centre
         };
         let view = camera.with_size(camera.size() * axis).unwrap_or(*camera);
-        view.with_sampling(sampling)
+        view.with_kind(Kind::Axial).with_sampling(sampling)
     }
 
     fn axis(&self) -> u32 {
@@ -77,15 +77,19 @@ pub struct Picture {
     pub normal: Vec<Vec3>,
     /// Distance along the camera's axis of that region; +∞ where nothing is seen.
     pub depth: Vec<f32>,
-    /// Samples generated, hidden ones included.
+    /// Samples generated, hidden ones included: the points that Williams' point-by-point mode transforms when it tests
+    /// every one before it is shaded (W78-4, W78-22, X-6).
     pub fragments: u64,
+    /// Those of them that were nearer than all before, in the scene's order: what that mode transforms when only points
+    /// that pass the depth test are asked about. The picture is the same.
+    pub passing: u64,
     /// Regions shaded: points transformed to each light.
     pub regions: u64,
 }
 
 /// Pass 2: the camera's picture of a scene, with `shadows[i]` deciding what of light i arrives (R87-1).
 ///
-/// Lights beyond the end of `shadows` cast none.
+/// Lights beyond the end of `shadows`, and those that do not cast ([`umbrage_scene::Light::casts`]), have no shadow.
 pub fn picture(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame) -> Picture {
     let axis = frame.axis();
     let view = frame.sample_view(&scene.camera);
@@ -127,15 +131,18 @@ struct Pixel {
 struct TileOut {
     pixels: Vec<Pixel>,
     fragments: u64,
+    passing: u64,
     regions: u64,
 }
 
 fn finish_tile(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame, gather: &Gather, tile: UVec2) -> TileOut {
-    let (regions, fragments) = gather.tile(tile);
+    let (regions, fragments, passing) = gather.tile(tile);
     let points: Vec<SurfacePoint> = regions.iter().map(|region| region.point).collect();
     let mut fractions = vec![vec![0.0; points.len()]; scene.lights.len()];
     for (light, (shadow, out)) in shadows.iter().zip(&mut fractions).enumerate() {
-        shadow.fractions(&points, Key::new(frame.seed, frame.number, light as u32), out);
+        if scene.lights[light].casts {
+            shadow.fractions(&points, Key::new(frame.seed, frame.number, light as u32), out);
+        }
     }
     let mut pixels: Vec<Pixel> = Vec::new();
     let lights = scene.lights.len();
@@ -147,7 +154,7 @@ fn finish_tile(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame, gather: &G
             pixel.add(scene, region, &fractions, index);
         }
     }
-    TileOut { pixels, fragments, regions: regions.len() as u64 }
+    TileOut { pixels, fragments, passing, regions: regions.len() as u64 }
 }
 
 impl Pixel {
@@ -211,12 +218,14 @@ impl Picture {
             normal: vec![Vec3::ZERO; pixels],
             depth: vec![f32::INFINITY; pixels],
             fragments: 0,
+            passing: 0,
             regions: 0,
         }
     }
 
     fn place(&mut self, origin: UVec2, across: u32, tile: &TileOut) {
         self.fragments += tile.fragments;
+        self.passing += tile.passing;
         self.regions += tile.regions;
         for pixel in &tile.pixels {
             let at = origin + UVec2::new(pixel.index % across, pixel.index / across);

@@ -4,8 +4,10 @@ use umbrage_plane::Bias;
 use umbrage_sample::{
     Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Pattern, Uniform,
 };
-use umbrage_shadow::williams::{Dither, Guard, Lookup};
-use umbrage_shadow::{Filter, OnPlane, Ordinary, Pcf, ReceiverDepth, Shadow, ShadowMap, Spread, Williams, presets};
+use umbrage_shadow::williams::{DitherLaw, Guard, Lookup};
+use umbrage_shadow::{
+    Biased, Filter, OnPlane, Ordinary, Pcf, ReceiverDepth, Shadow, ShadowMap, Spread, Williams, presets,
+};
 
 /// How a map is kept while it is looked up. Answers are the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -64,13 +66,18 @@ impl RecipeError {
 /// | field | of | values |
 /// |---|---|---|
 /// | `pattern` | reeves87 | `jittered`, `uniform`, `gaussian`, `inside`, `warp`, `every`, `centre`, `disc` |
-/// | `samples`, `min-samples` | reeves87 | counts from 1 |
+/// | `samples`, `min-samples` | reeves87 | counts from 1, the second at most the first |
+/// | `jitter` | reeves87 | part of a cell, 0 (a regular grid) to 1 |
+/// | `hard-cap` | reeves87 | `on`, `off`: whether `samples` is never exceeded |
 /// | `res-factor`, `min-size` | reeves87, ordinary | numbers from 0 |
-/// | `bias` | all | a number or a range `a..b`, with a unit: none or `w` world, `t` texels, `s` depth steps, `m` map units |
+/// | `bias` | all | a number or, for reeves87, a range `a..b`, then a unit: none or `w` world, `t` texels, `s` depth steps, `m` map units |
 /// | `spread` | reeves87 | `random`, `ramp` |
-/// | `depth` | reeves87 | `constant`, `plane` |
+/// | `depth` | reeves87 | `constant`, `plane` (one bias, no spread) |
 /// | `lookup` | williams78 | `nearest`, `bilinear`, `faithful` |
+/// | `guard` | williams78 | depth steps of difference up to which `bilinear` interpolates |
 /// | `dither` | williams78 | full range in texels, 0 to 2 |
+/// | `dither-law` | williams78 | `normal`, `uniforms` |
+/// | `dither-depth` | williams78 | full range of a displacement in depth, map units, from 0 |
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Recipe {
     /// Williams 1978, point by point.
@@ -136,6 +143,9 @@ impl FromStr for Recipe {
                 Self::Ordinary(ordinary) => set_ordinary(ordinary, field, value)?,
             }
         }
+        if let Self::Reeves(reeves) = &recipe {
+            reeves.check()?;
+        }
         Ok(recipe)
     }
 }
@@ -163,6 +173,14 @@ impl Reeves {
             "min-samples" => self.pcf.pattern.min_samples = count(field, value)?,
             "res-factor" => self.pcf.res_factor = number(field, value)?,
             "min-size" => self.pcf.min_size = number(field, value)?,
+            "jitter" => self.pcf.pattern.jitter = number_up_to(1.0, field, value)?,
+            "hard-cap" => {
+                self.pcf.pattern.hard_cap = match value {
+                    "on" => true,
+                    "off" => false,
+                    _ => return Err(RecipeError::value(field, value, "on or off")),
+                }
+            }
             "bias" => (self.pcf.depth.low, self.pcf.depth.high) = bias_range(field, value)?,
             "spread" => {
                 self.pcf.depth.spread = match value {
@@ -179,13 +197,26 @@ impl Reeves {
                 }
             }
             _ => {
-                let fields = "pattern, samples, min-samples, res-factor, min-size, bias, spread or depth";
+                let fields =
+                    "pattern, samples, min-samples, jitter, hard-cap, res-factor, min-size, bias, spread or depth";
                 return Err(RecipeError::value("field", field, fields));
             }
         }
+        Ok(())
+    }
+
+    /// What only all fields together can show.
+    fn check(&self) -> Result<(), RecipeError> {
         let Jittered { num_samples, min_samples, .. } = self.pcf.pattern;
         if min_samples > num_samples {
             return Err(RecipeError::value("min-samples", &min_samples.to_string(), "at most samples"));
+        }
+        let Biased { low, high, spread } = self.pcf.depth;
+        if self.on_plane && low != high {
+            return Err(RecipeError::value("bias", &format!("{low:?} to {high:?}"), "one bias, with depth=plane"));
+        }
+        if self.on_plane && spread != Spread::default() {
+            return Err(RecipeError::value("spread", "ramp", "none, with depth=plane"));
         }
         Ok(())
     }
@@ -239,13 +270,21 @@ fn set_williams(williams: &mut Williams, field: &str, value: &str) -> Result<(),
             }
         }
         "dither" => {
-            let amplitude = number(field, value)?;
-            if amplitude > 2.0 {
-                return Err(RecipeError::value(field, value, "0 to 2 texels"));
-            }
-            williams.dither = Dither { amplitude, ..williams.dither };
+            williams.dither.amplitude = number_up_to(2.0, field, value)?;
         }
-        _ => return Err(RecipeError::value("field", field, "bias, lookup or dither")),
+        "dither-law" => {
+            williams.dither.law = match value {
+                "normal" => DitherLaw::TruncatedNormal,
+                "uniforms" => DitherLaw::ThreeUniforms,
+                _ => return Err(RecipeError::value(field, value, "normal or uniforms")),
+            }
+        }
+        "dither-depth" => williams.dither.depth = number(field, value)?,
+        "guard" => williams.lookup = Lookup::Bilinear(Guard::Steps(number(field, value)?)),
+        _ => {
+            let fields = "bias, lookup, guard, dither, dither-law or dither-depth";
+            return Err(RecipeError::value("field", field, fields));
+        }
     }
     Ok(())
 }
@@ -269,22 +308,82 @@ fn number(field: &str, value: &str) -> Result<f32, RecipeError> {
     parsed.ok_or_else(|| RecipeError::value(field, value, "a finite number from 0"))
 }
 
-fn bias(field: &str, value: &str) -> Result<Bias, RecipeError> {
-    let (digits, unit): (&str, fn(f32) -> Bias) = match value.as_bytes().last() {
-        Some(b'w') => (&value[..value.len() - 1], Bias::World),
-        Some(b't') => (&value[..value.len() - 1], Bias::Texels),
-        Some(b's') => (&value[..value.len() - 1], Bias::Steps),
-        Some(b'm') => (&value[..value.len() - 1], Bias::Map),
-        _ => (value, Bias::World),
-    };
-    number(field, digits)
-        .map(unit)
-        .map_err(|_| RecipeError::value(field, value, "a number from 0 with a unit w, t, s or m"))
+fn number_up_to(most: f32, field: &str, value: &str) -> Result<f32, RecipeError> {
+    let expected = if most == 1.0 { "a number from 0 to 1" } else { "a number from 0 to 2" };
+    number(field, value).ok().filter(|n| *n <= most).ok_or_else(|| RecipeError::value(field, value, expected))
 }
 
+/// The digits of a bias, and its unit.
+fn unit(value: &str) -> (&str, fn(f32) -> Bias) {
+    let units: [(char, fn(f32) -> Bias); 4] =
+        [('w', Bias::World), ('t', Bias::Texels), ('s', Bias::Steps), ('m', Bias::Map)];
+    let named = units.into_iter().find_map(|(letter, unit)| Some((value.strip_suffix(letter)?, unit)));
+    named.unwrap_or((value, Bias::World))
+}
+
+fn bias(field: &str, value: &str) -> Result<Bias, RecipeError> {
+    let (digits, unit) = unit(value);
+    let error = |_| RecipeError::value(field, value, "a number from 0 with a unit w, t, s or m");
+    number(field, digits).map(unit).map_err(error)
+}
+
+/// `a..b` with one unit behind, or one bias for both.
 fn bias_range(field: &str, value: &str) -> Result<(Bias, Bias), RecipeError> {
-    match value.split_once("..") {
-        Some((low, high)) => Ok((bias(field, low)?, bias(field, high)?)),
-        None => bias(field, value).map(|bias| (bias, bias)),
+    let (digits, unit) = unit(value);
+    let Some((low, high)) = digits.split_once("..") else { return bias(field, value).map(|bias| (bias, bias)) };
+    let both = number(field, low).ok().zip(number(field, high).ok()).filter(|(low, high)| low <= high);
+    let error = || RecipeError::value(field, value, "two numbers from 0, the smaller first, and one unit w, t, s or m");
+    both.map(|(low, high)| (unit(low), unit(high))).ok_or_else(error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use umbrage_shadow::williams::Dither;
+
+    fn refused(text: &str) -> String {
+        text.parse::<Recipe>().unwrap_err().to_string()
+    }
+
+    #[test]
+    fn r87_12_every_field_is_read() {
+        let all = "reeves87,min-samples=32,samples=64,jitter=0.5,hard-cap=on,res-factor=2,min-size=1,bias=0.2..0.3t,spread=ramp";
+        let Recipe::Reeves(reeves) = all.parse().unwrap() else { panic!("reeves87") };
+        let pattern = Jittered { num_samples: 64, min_samples: 32, jitter: 0.5, hard_cap: true };
+        let depth = Biased { low: Bias::Texels(0.2), high: Bias::Texels(0.3), spread: Spread::Ramp };
+        assert_eq!(reeves.pcf, Pcf { pattern, depth, res_factor: 2.0, min_size: 1.0, cull: true });
+        let all = "williams78,bias=3m,guard=2,dither=1,dither-law=uniforms,dither-depth=0.5";
+        let dither = Dither { amplitude: 1.0, law: DitherLaw::ThreeUniforms, depth: 0.5 };
+        let lookup = Lookup::Bilinear(Guard::Steps(2.0));
+        assert_eq!(all.parse(), Ok(Recipe::Williams(Williams { bias: Bias::Map(3.0), lookup, dither })));
+        for (name, pattern) in PATTERNS {
+            let Recipe::Reeves(reeves) = format!("reeves87,pattern={name}").parse().unwrap() else {
+                panic!("reeves87")
+            };
+            assert_eq!(reeves.pattern, *pattern);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_meant_is_told_by_field_and_value() {
+        let unit = "two numbers from 0, the smaller first, and one unit w, t, s or m";
+        assert_eq!(refused("reeves87,bias=0.3w..0.4t"), format!("bias = \"0.3w..0.4t\": expected {unit}"));
+        assert_eq!(refused("reeves87,bias=0.4..0.3"), format!("bias = \"0.4..0.3\": expected {unit}"));
+        assert_eq!(refused("reeves87,samples=8,min-samples=9"), "min-samples = \"9\": expected at most samples");
+        assert!(refused("reeves87,depth=plane,bias=0.1..0.2").starts_with("bias = "));
+        assert!(refused("reeves87,depth=plane,bias=0,spread=ramp").starts_with("spread = "));
+        assert_eq!(refused("reeves87,jitter=1.5"), "jitter = \"1.5\": expected a number from 0 to 1");
+        assert_eq!(refused("williams78,dither=2.5"), "dither = \"2.5\": expected a number from 0 to 2");
+        assert!(refused("reeves86").contains("expected williams78, reeves87"));
+        for text in [
+            "reeves87,samples=0",
+            "reeves87,samples",
+            "reeves87,bias=NaN",
+            "ordinary,spread=ramp",
+            "williams78,bias=-1",
+            "",
+        ] {
+            assert!(!refused(text).contains('\n'), "{text}");
+        }
     }
 }

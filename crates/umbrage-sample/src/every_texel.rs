@@ -9,7 +9,7 @@ use umbrage_plane::Footprint;
 ///
 /// A texel belongs to the region when its centre lies in `[centre − half, centre + half)` on both axes; an axis on
 /// which none does has the one texel under the region's centre. Taps are texel centres, row by row (that one texel's
-/// tap is moved into the region, should its centre lie outside). Of regions wider than 65,536 texels only the first
+/// tap is moved into the region, should its centre lie outside), and so has an axis whose extent is not finite. Of regions wider than 65,536 texels only the first
 /// 65,536 columns or rows are visited: no map is larger than half of that.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EveryTexel;
@@ -36,5 +36,5 @@ impl Pattern for EveryTexel {
 fn span(low: f32, high: f32, centre: f32) -> (f32, u32) {
     let first = (low - 0.5).ceil();
     let count = (high - 0.5).ceil() - first;
-    if count >= 1.0 { (first, count.min(MOST) as u32) } else { (centre.floor(), 1) }
+    if count >= 1.0 && count.is_finite() { (first, count.min(MOST) as u32) } else { (centre.floor(), 1) }
 }

@@ -63,7 +63,7 @@ impl Jittered {
             // ⌊n/nt + ½⌋
             (((2 * n + nt) / (2 * nt)).clamp(m, n), nt)
         };
-        if self.hard_cap && ns * nt > n {
+        if self.hard_cap && u64::from(ns) * u64::from(nt) > u64::from(n) {
             return if ns > nt { UVec2::new(n / nt, nt) } else { UVec2::new(ns, n / ns) };
         }
         UVec2::new(ns, nt)

@@ -24,7 +24,8 @@ impl Key {
         Self { state: mix32(state.wrapping_add(light.wrapping_mul(0x85EB_CA6B))) }
     }
 
-    /// The key of a region. Different regions of one picture never share a stream.
+    /// The key of a region. Streams are places in one sequence of 2³² numbers: those of different regions start elsewhere,
+    /// and of a million some thousand pairs overlap by a few samples.
     #[inline(always)]
     pub const fn region(self, region: u32) -> Self {
         Self { state: mix32(self.state ^ region.wrapping_mul(GOLDEN)) }

@@ -57,7 +57,7 @@ impl Light {
     ) -> Result<Self, ViewError> {
         let mut light = Self::point(name, position, target, full_angle_deg, near, far, size)?;
         let tan_half = (0.5 * full_angle_deg.to_radians()).tan();
-        light.view = light.view.with_rules(Rules::SPOT).with_cone(Some(tan_half));
+        light.view = light.view.with_rules(Rules::SPOT).with_cone(Some(tan_half))?;
         Ok(light)
     }
 

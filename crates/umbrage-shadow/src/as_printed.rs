@@ -2,6 +2,10 @@
 //!
 //! Reeves, Salesin & Cook 1987, Fig. 4 (errata E-R1 to E-R21). The behaviour is reproduced, not the scan's garble, and
 //! never a panic or a division by zero: where the listing divides by zero the guards of E-R6 answer.
+//!
+//! What only concerns the language is Rust's here: garbled declarations (E-R1), `floor` and `ceil` declared without their type
+//! (E-R2), a bitwise `|` between truth values (E-R11), the order of the array's indices (E-R20). The cull's inclusive rectangle with
+//! floor and ceiling is kept as printed (E-R12), like the square map.
 
 use glam::IVec2;
 use umbrage_depth::DepthMap;
@@ -89,7 +93,11 @@ pub struct Counts {
 }
 
 /// The listing's sample counts for half-extents in texels: in its second branch `ns` comes from an unclamped `nt`, and only `nt` is clamped (E-R5, E-R7, E-R8).
+///
+/// `num_samples` of 0 counts as 1, and `min_samples` is moved into 1..=`num_samples`.
 pub fn counts(sres: f32, tres: f32, num_samples: u32, min_samples: u32) -> Counts {
+    let num_samples = num_samples.max(1);
+    let min_samples = min_samples.clamp(1, num_samples);
     let n = num_samples as f32;
     let clamp = |value: f32| (value as u32).clamp(min_samples, num_samples);
     if sres * tres * 4.0 < n {

@@ -1,7 +1,7 @@
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::{IVec2, Vec2};
 use umbrage_plane::{Bias, DepthRange, Receiver, TexelRect, View, floor_texel};
-use umbrage_sample::Taps;
+use umbrage_sample::{Taps, radical_inverse};
 
 /// Which depth the receiver is given at a tap; a texel nearer than that shadows it.
 pub trait ReceiverDepth: Sync {
@@ -68,7 +68,7 @@ impl ReceiverDepth for Biased {
             Spread::Random => taps.u,
             Spread::Ramp => {
                 let first = taps.first;
-                f32x16::load_array(simd, std::array::from_fn(|i| van_der_corput(first + i as u32)))
+                f32x16::load_array(simd, std::array::from_fn(|i| radical_inverse(first + i as u32)))
             }
         };
         share * (far_end - near_end) + near_end
@@ -83,12 +83,6 @@ impl ReceiverDepth for Biased {
         let last = near_end + (far_end - near_end);
         DepthRange { min: near_end.min(last), max: near_end.max(last) }
     }
-}
-
-/// Base-2 radical inverse, in \[0, 1).
-#[inline(always)]
-fn van_der_corput(index: u32) -> f32 {
-    (index.reverse_bits() >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
 /// The receiver's tangent plane where the texel that is read was sampled, moved toward the light by a bias

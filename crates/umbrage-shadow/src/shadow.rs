@@ -1,6 +1,5 @@
 use crate::{Filter, Probe};
 use fearless_simd::{Level, Simd, dispatch};
-use glam::Vec3;
 use umbrage_depth::DepthMap;
 use umbrage_plane::{Receiver, SurfacePoint, Verdict};
 use umbrage_sample::Key;
@@ -17,11 +16,6 @@ pub trait Shadow: Sync {
         let mut out = [0.0];
         self.fractions(std::slice::from_ref(at), key, &mut out);
         out[0]
-    }
-
-    /// The light that arrives, per colour channel: 1 − fraction unless something between is coloured.
-    fn transmittance(&self, at: &SurfacePoint, key: Key) -> Vec3 {
-        Vec3::splat(1.0 - self.fraction(at, key))
     }
 }
 
@@ -51,7 +45,11 @@ impl<F: Filter, M: DepthMap> ShadowMap<F, M> {
     }
 
     /// The fraction of a receiver that is already in the light's space, under its region's own key.
+    ///
+    /// # Panics
+    /// When the receiver's depth is of another kind than the map's: the two cannot be compared (spec C-4).
     pub fn fraction_of(&self, receiver: &Receiver, key: Key) -> f32 {
+        assert_eq!(receiver.kind, self.map.view().kind(), "kinds of a receiver's depth and of the map's");
         dispatch!(Level::new(), simd => self.filter.shadow(simd, &self.map, receiver, key, &mut ()))
     }
 

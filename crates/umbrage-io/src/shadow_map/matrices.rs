@@ -43,8 +43,21 @@ pub(crate) fn to_view(
         let problem = "neither a centred perspective nor a centred parallel projection of worldToCamera";
         Fault::new("worldToNDC", format!("{world_to_ndc:?}"), problem)
     })?;
-    View::new(EYE_TO_CAMERA * camera, projection, f64::from(near), f64::from(far), size)
+    View::new(EYE_TO_CAMERA * straightened(camera), projection, f64::from(near), f64::from(far), size)
         .map_err(|error| Fault::new("near, far", format!("{near}, {far}"), error))
+}
+
+/// A nearly rigid transform without the roundings of its f32 entries, as an exact one.
+fn straightened(camera: DMat4) -> DMat4 {
+    let rows = DMat3::from_mat4(camera).transpose();
+    let ahead = rows.z_axis.normalize();
+    let right = (rows.x_axis - ahead * rows.x_axis.dot(ahead)).normalize();
+    // Left-handed: +z ahead.
+    let up = right.cross(ahead);
+    let rotation = DMat3::from_cols(right, up, ahead).transpose();
+    let mut exact = DMat4::from_mat3(rotation);
+    exact.w_axis = camera.w_axis.truncate().extend(1.0);
+    exact
 }
 
 /// What takes camera space (+z ahead) to NDC: (a·x + z/2, z/2 − b·y)/z in perspective, (a·x + ½, ½ − b·y) in parallel.

@@ -53,7 +53,9 @@ pub fn read_shadow_map(path: &Path) -> Result<Raw, IoError> {
 /// # Errors
 /// As [`read_shadow_map`].
 pub fn read_shadow_map_within(path: &Path, most_texels: u64) -> Result<Raw, IoError> {
-    decode_shadow_map(&read_bytes(path)?, most_texels).map_err(|fault| fault.in_file(path))
+    // Stored without loss, a texel takes four bytes at most; the rest is header, offset table and what a coder adds.
+    let most_bytes = most_texels.saturating_mul(5).saturating_add(1 << 20);
+    decode_shadow_map(&read_bytes(path, most_bytes)?, most_texels).map_err(|fault| fault.in_file(path))
 }
 
 /// As [`read_shadow_map_within`], from bytes.

@@ -16,6 +16,9 @@ pub(crate) fn decode(bytes: &[u8], most_texels: u64) -> Result<(View, Vec<f32>),
     let mut rest = bytes;
     let meta =
         MetaData::read_from_buffered(&mut rest, true).map_err(|error| Fault::new("header", "unreadable", error))?;
+    if meta.requirements.has_multiple_layers {
+        return Err(Fault::new("version", "flagged as of several parts", "a shadow map is a file of one part"));
+    }
     let header = match meta.headers.as_slice() {
         [header] => header,
         parts => return Err(Fault::new("parts", parts.len(), "a shadow map has one")),

@@ -23,7 +23,6 @@ fn of_view(view: &View) -> String {
         Kind::Axial => "axial",
         Kind::Screen => "screen",
         Kind::Radial => "radial",
-        Kind::Object => "object",
     };
     let sampling = match view.sampling() {
         Sampling::Centre => "centre".into(),
@@ -88,11 +87,9 @@ fn parse(lines: &str) -> Result<(View, u64), Fault> {
     let view = View::new(matrix, projection, one("near")?, one("far")?, sides)
         .map_err(|error| fault("view", "unusable", &error.to_string()))?;
     let cone = line("cone").map(|cone| numbers::<1>("cone", &cone)).transpose()?.map(|[tan_half]| tan_half);
-    if cone.is_some_and(|tan_half| !(tan_half.is_finite() && tan_half > 0.0)) {
-        return Err(fault("cone", &format!("{cone:?}"), "not positive and finite"));
-    }
     let view = view.with_kind(kind(&need("kind")?)?).with_sampling(sampling(&need("sampling")?)?);
-    let view = view.with_rules(rules(&need("rules")?)?).with_cone(cone);
+    let view = view.with_rules(rules(&need("rules")?)?);
+    let view = view.with_cone(cone).map_err(|error| fault("cone", &format!("{cone:?}"), &error.to_string()))?;
     let digest = need("digest")?;
     let number = u64::from_str_radix(&digest, 16).map_err(|error| fault("digest", &digest, &error.to_string()))?;
     Ok((view, number))
@@ -109,8 +106,7 @@ fn kind(text: &str) -> Result<Kind, Fault> {
         "axial" => Ok(Kind::Axial),
         "screen" => Ok(Kind::Screen),
         "radial" => Ok(Kind::Radial),
-        "object" => Ok(Kind::Object),
-        _ => Err(fault("kind", text, "not axial, screen, radial or object")),
+        _ => Err(fault("kind", text, "not axial, screen or radial")),
     }
 }
 

@@ -58,3 +58,20 @@ fn files_of_interrupted_runs_are_no_obstacle() {
     assert_eq!(fs::read(folder.join("a.exr")).expect("readable"), b"whole");
     assert_eq!(fs::read(folder.join(".a.exr.0.tmp")).expect("not ours to take"), b"torn");
 }
+
+#[cfg(unix)]
+#[test]
+fn pipes_and_files_past_the_budget_are_refused_and_never_waited_for() {
+    let folder = folder("pipe");
+    let pipe = folder.join("map.exr");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo runs");
+    assert!(made.success());
+    let (tell, told) = std::sync::mpsc::channel();
+    std::thread::spawn(move || tell.send(umbrage_io::read_shadow_map(&pipe).map(|_| ()).map_err(|e| e.to_string())));
+    let answer = told.recv_timeout(std::time::Duration::from_secs(20)).expect("an answer without waiting");
+    assert!(answer.expect_err("refused").contains("not a regular file"));
+    let long = folder.join("long.exr");
+    fs::File::create(&long).and_then(|file| file.set_len(1 << 40)).expect("a sparse file");
+    let refused = umbrage_io::read_shadow_map(&long).expect_err("refused").to_string();
+    assert!(refused.contains("long.exr") && refused.contains("1099511627776 bytes are more than"), "{refused}");
+}

@@ -177,7 +177,7 @@ fn texts_that_lie() {
         ("far", "-", "far"),
         ("size", "149 140", "displayWindow is 150 x 140"),
         ("size", "99999999", "not two whole numbers"),
-        ("kind", "exial", "not axial, screen, radial or object"),
+        ("kind", "exial", "not axial, screen or radial"),
         ("sampling", "middle", "neither centre nor jittered"),
         ("rules", "dark", "not five of"),
         ("digest", "g", "invalid digit"),

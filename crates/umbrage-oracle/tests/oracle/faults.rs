@@ -12,7 +12,8 @@ fn shadow(edge: f64, width: f64) -> Vec<f32> {
 }
 
 fn judged(result: &[f32], truth: &[f32]) -> Faults {
-    let contacts = [Contact { foot: DVec2::new(28.0, 10.0), toward: DVec2::X, world_per_pixel: 0.5 }];
+    let contacts =
+        [Contact { foot: DVec2::new(28.0, 10.0), toward: DVec2::X, world_per_pixel: 0.5, world_per_texel: 0.25 }];
     faults(&Evidence {
         result: Grid::new(result, SIDE),
         truth: Grid::new(truth, SIDE),
@@ -73,6 +74,7 @@ fn m4_m7_shifted_edges() {
         assert!((found.edge_shift.value.unwrap() - shift).abs() < 1e-3, "{shift}");
         let world = found.detachment.value.unwrap();
         assert!((world - 0.5 * shift.max(0.0)).abs() < 1e-2, "{world}");
+        assert_eq!(found.detachment_texels.unwrap(), world * 4.0);
         zero_but(&found, "edge_shift detachment penumbra_width noise");
     }
 }
@@ -107,6 +109,7 @@ fn m6_noise() {
 fn nothing_to_measure() {
     let found = judged(&[0.0; SIDE * SIDE], &[0.0; SIDE * SIDE]);
     assert_eq!(found.acne.value, Some(0.0));
+    assert_eq!(found.detachment_texels, None);
     for fault in [found.leak, found.detachment, found.edge_shift, found.penumbra_width, found.noise] {
         assert_eq!(fault.value, None);
     }
@@ -124,4 +127,13 @@ fn heat_tells_sign_and_size() {
         assert!(brightness(-more) > brightness(-less), "too light at {more}");
     }
     assert_ne!(heat(f32::NAN), heat(0.0));
+}
+
+#[test]
+fn m7_a_lost_shadow_is_the_worst_detachment() {
+    let truth = shadow(32.0, 5.0);
+    let lost = judged(&[0.0; SIDE * SIDE], &truth).detachment.value.unwrap();
+    let moved = judged(&shadow(40.0, 5.0), &truth).detachment.value.unwrap();
+    // From the edge to the border, half a world unit a pixel.
+    assert!(lost > moved && (lost - 0.5 * (SIDE as f64 - 32.0)).abs() < 0.5, "{lost} {moved}");
 }

@@ -32,6 +32,7 @@ proptest! {
         let [a, b, c] = corners.map(Vec3::as_dvec3);
         let normal = (b - a).cross(c - a).normalize_or_zero();
         let radial = view.with_kind(Kind::Radial).decode();
+        let mut seen = Vec::new();
         for ((y, x), facets) in fragments(&bins(&view, [solid(corners)])) {
             let at = sampling.position(IVec2::new(x, y));
             let ray = camera.ray(at);
@@ -48,6 +49,17 @@ proptest! {
             prop_assert!(ulps(depth, zeta as f32) <= 2, "{} is not {} at {}", depth, zeta, at);
             let distance = (ray.1 * zeta).length();
             prop_assert!(ulps(radial.depth(key, at), distance as f32) <= 2);
+            seen.push((at, zeta));
+        }
+        // Post-projective depth has keys of its own; it is compared where it is positive, as near to the near plane as that is.
+        let screen = view.with_kind(Kind::Screen);
+        for ((y, x), facets) in fragments(&bins(&screen, [solid(corners)])) {
+            let at = sampling.position(IVec2::new(x, y));
+            if let Some((_, zeta)) = seen.iter().find(|(place, zeta)| *place == at && *zeta > 1.0 + 1e-6) {
+                let exact = if perspective { 100.0 * (zeta - 1.0) / (zeta * 99.0) } else { (zeta - 1.0) / 99.0 };
+                let depth = screen.decode().depth(facets[0].key(sampling, IVec2::new(x, y)), at);
+                prop_assert!(ulps(depth, exact as f32) <= 2, "z_s {} is not {} at {}", depth, exact, at);
+            }
         }
     }
 

@@ -7,8 +7,8 @@ mod edges;
 pub use edges::dequantise_edges;
 
 use glam::{DVec2, DVec3, UVec2, Vec3};
-use umbrage_depth::DepthMap;
-use umbrage_plane::{Footprint, Kind, Projection, Receiver, SurfacePoint, TexelRect, View};
+use umbrage_depth::{DepthMap, quantum};
+use umbrage_plane::{Footprint, Kind, Projection, Receiver, SurfacePoint, TexelRect, Verdict, View, Where};
 use umbrage_sample::Key;
 use umbrage_shadow::williams::{observer_to_light, transform};
 use umbrage_shadow::{Shadow, ShadowMap, Williams};
@@ -27,7 +27,7 @@ pub struct ShadowImage {
 /// Transforms each visible pixel of a finished picture into the light's view by one matrix and tests it there (W78-3, W78-5).
 ///
 /// `zeta` is the picture's depth along the observer's axis, +∞ where nothing is seen: such pixels are skipped (T-15).
-/// `z_bits` rounds it to an integer depth first, which is the extra quantisation of this mode. Each pixel is taken to
+/// `z_bits` (8 to 24, others as the nearest of these) rounds it to an integer depth first, which is the extra quantisation of this mode. Each pixel is taken to
 /// be at its centre, wherever its surface point was: a renderer that snaps points to pixels adds its error here (W78-7).
 pub fn shadow_image<M: DepthMap>(
     zeta: &[f32],
@@ -46,14 +46,14 @@ pub fn shadow_image<M: DepthMap>(
         }
         transforms += 1;
         let z = f64::from(observer_screen.depth(DVec3::new(0.0, 0.0, -f64::from(zeta))));
-        let z = z_bits.map_or(z, |bits| {
-            let levels = f64::from((1u32 << bits) - 1);
-            (z.clamp(0.0, 1.0) * levels + 0.5).floor() / levels
-        });
+        let z = z_bits.map_or(z, |bits| f64::from(quantum(z, bits)) / f64::from(quantum(1.0, bits)));
         let centre = (pixel.as_dvec2() + 0.5) / size.as_dvec2();
         let screen = DVec3::new(centre.x * 2.0 - 1.0, 1.0 - centre.y * 2.0, z);
         let region = pixel.y * size.x + pixel.x;
-        transform(&matrix, screen).map_or(0.0, |at| test(light, at, key.region(region)))
+        match transform(&matrix, screen) {
+            Some(at) => test(light, at, key.region(region)),
+            None => f32::from(u8::from(light.map.view().rules().verdict(Where::Behind) == Verdict::Shadowed)),
+        }
     };
     let shadow =
         TexelRect::of_size(size).texels().zip(zeta).map(|(pixel, &zeta)| one(pixel.as_uvec2(), zeta)).collect();
@@ -61,7 +61,7 @@ pub fn shadow_image<M: DepthMap>(
 }
 
 /// Stands in for the slope that a finished picture does not know: steep, 83°, so that [`Guard::Steps`](umbrage_shadow::williams::Guard) still
-/// interpolates where surfaces turn away from the light, which is where interpolation is needed.
+/// interpolates where surfaces turn away from the light, which is where interpolation is needed. A bias in depth steps counts in it, too.
 const UNKNOWN_SLOPE: f32 = 8.0;
 
 /// Tests a point of the light's screen.
