@@ -1,8 +1,9 @@
 //! Reeves, Salesin & Cook 1987: the worked example, the listing as printed and as corrected, ranges and rules.
 
+use fearless_simd::{Level, dispatch};
 use glam::{DVec3, UVec2, Vec2, Vec3};
 use umbrage_depth::{Raw, Tiled};
-use umbrage_plane::{Bias, Footprint, Receiver, Rules, SurfacePoint, View};
+use umbrage_plane::{Bias, Footprint, Kind, Receiver, Rules, SurfacePoint, View, Where};
 use umbrage_sample::{EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Uniform};
 use umbrage_shadow::as_printed::{Counts, FootprintConvention, Listing, RandRange, TextureRect, counts, sample_shadow};
 use umbrage_shadow::{Biased, Counters, Filter, OnPlane, Ordinary, Pcf, Shadow, ShadowMap, Spread, presets};
@@ -49,22 +50,57 @@ fn v01_figure_2_ordinary_against_percentage_closer_r87_9_r87_10() {
     assert_eq!(fraction(ordinary, map, &region, KEY), 1.0);
 }
 
+/// Half-extents, NumSamples, MinSamples; counts as corrected; counts as printed and whether a guard had to answer.
+const COUNTS: [(f32, f32, u32, u32, [u32; 2], [u32; 3]); 28] = [
+    (0.0, 0.0, 16, 1, [1, 1], [1, 1, 0]),
+    (0.4, 0.4, 16, 1, [1, 1], [1, 1, 0]),
+    (0.75, 0.75, 16, 1, [2, 2], [2, 2, 0]),
+    (1.0, 1.0, 16, 1, [2, 2], [2, 2, 0]),
+    (1.5, 1.5, 16, 1, [3, 3], [3, 3, 0]),
+    (2.0, 2.0, 16, 1, [4, 4], [4, 4, 0]),
+    (3.0, 3.0, 16, 1, [4, 4], [4, 4, 0]),
+    (3.0, 1.0, 16, 1, [6, 2], [6, 2, 0]),
+    (7.9, 0.4, 16, 1, [16, 1], [16, 1, 0]),
+    (39.0, 0.1, 16, 1, [16, 1], [16, 1, 0]),
+    (8.0, 4.0, 16, 1, [5, 3], [5, 3, 0]),
+    (4.0, 8.0, 16, 1, [3, 6], [3, 6, 0]),
+    (6.0, 2.0, 16, 1, [8, 2], [8, 2, 0]),
+    (2.0, 6.0, 16, 1, [2, 7], [2, 7, 0]),
+    (20.0, 1.0, 16, 1, [16, 1], [16, 1, 0]),
+    (1.0, 20.0, 16, 1, [1, 16], [1, 16, 0]),
+    (20.0, 1.0, 16, 2, [8, 2], [16, 2, 0]),
+    (1.0, 20.0, 16, 2, [2, 16], [1, 16, 0]),
+    (0.5, 40.0, 16, 1, [1, 16], [1, 16, 1]),
+    (40.0, 0.5, 16, 1, [16, 1], [16, 1, 1]),
+    (1.0, 66.0, 16, 1, [1, 16], [1, 16, 0]),
+    (66.0, 1.0, 16, 1, [16, 1], [16, 1, 1]),
+    (70.0, 1.0, 16, 1, [16, 1], [16, 1, 1]),
+    (1.0, 67.0, 16, 1, [1, 16], [1, 16, 1]),
+    (24.0, 24.0, 64, 2, [8, 8], [8, 8, 0]),
+    (3.0, 3.0, 4, 1, [2, 2], [2, 2, 0]),
+    (3.0, 3.0, 1, 1, [1, 1], [1, 1, 0]),
+    (5.25, 0.75, 16, 1, [11, 2], [11, 2, 0]),
+];
+
 #[test]
-fn v02_to_v07_counts_as_printed_e_r5_e_r6_e_r7_e_r8() {
-    let printed = |a, b, n, m| counts(a, b, n, m);
-    let plain = |ns, nt| Counts { ns, nt, guarded: 0 };
-    for (a, b, ns, nt) in [(0.0, 0.0, 1, 1), (0.75, 0.75, 2, 2), (2.0, 2.0, 4, 4), (3.0, 1.0, 6, 2), (8.0, 4.0, 5, 3)] {
-        assert_eq!(printed(a, b, 16, 1), plain(ns, nt));
+fn v02_to_v07_counts_corrected_and_as_printed_e_r5_e_r6_e_r7_e_r8() {
+    for (a, b, n, m, corrected, [ns, nt, guarded]) in COUNTS {
+        let ours = Jittered { num_samples: n, min_samples: m, ..Jittered::default() }.counts(Vec2::new(a, b));
+        assert_eq!(ours.to_array(), corrected, "({a}, {b}, {n}, {m})");
+        assert_eq!(counts(a, b, n, m), Counts { ns, nt, guarded }, "({a}, {b}, {n}, {m})");
     }
-    assert_eq!(printed(4.0, 8.0, 16, 1), plain(3, 6));
-    assert_eq!(printed(20.0, 1.0, 16, 2), plain(16, 2));
-    assert_eq!(printed(1.0, 20.0, 16, 2), plain(1, 16));
-    assert_eq!(printed(0.5, 40.0, 16, 1), Counts { ns: 1, nt: 16, guarded: 1 });
-    assert_eq!(printed(40.0, 0.5, 16, 1), Counts { ns: 16, nt: 1, guarded: 1 });
-    assert_eq!(printed(66.0, 1.0, 16, 1).guarded, 1);
-    assert_eq!(printed(1.0, 66.0, 16, 1), plain(1, 16));
-    assert_eq!(printed(1.0, 67.0, 16, 1).guarded, 1);
-    assert_eq!(printed(5.25, 0.75, 16, 1), plain(11, 2));
+}
+
+#[test]
+fn the_listing_is_total_whatever_its_parameters() {
+    let map = map(16, |x, _| if x < 8 { 1.0 } else { f32::INFINITY });
+    for (n, m) in [(0, 0), (0, 5), (16, 0), (4, 9), (1, 1)] {
+        for half in [[0.0, 0.0], [0.001, 0.9], [0.9, 0.001], [0.2, 0.2], [1e9, 0.0]] {
+            let listing = Listing { num_samples: n, min_samples: m, ..Listing::default() };
+            let share = mean_printed(&listing, &map, [0.5; 2], 10.0, half, 3);
+            assert!((0.0..=1.0).contains(&share), "{n}, {m}, {half:?}: {share}");
+        }
+    }
 }
 
 fn whole(size: i32) -> TextureRect {
@@ -114,7 +150,7 @@ fn v10_e_r10_truncation_reads_column_0_for_samples_left_of_the_map() {
 }
 
 #[test]
-fn v11_to_v14_behind_and_empty_maps_are_lit() {
+fn v11_v12_v13_v14_behind_and_empty_maps_are_lit_e_r11_e_r12_e_r14() {
     let near = map(16, |_, _| 1.0);
     let listing = Listing::default();
     assert_eq!(mean_printed(&listing, &near, [0.5; 2], -1.0, [0.1; 2], 1), 0.0);
@@ -123,12 +159,21 @@ fn v11_to_v14_behind_and_empty_maps_are_lit() {
     let empty = map(16, |_, _| f32::INFINITY);
     let region = receiver(&lamp(16), 1e9, Vec2::splat(8.0), Vec2::splat(1.0));
     assert_eq!(fraction(presets::reeves87(), Tiled::from(&empty), &region, KEY), 0.0);
+    // The listing: an empty rectangle, a region outside it, and nothing but empty texels.
+    let nothing = TextureRect { umin: 16, umax: -1, vmin: 16, vmax: -1 };
+    let two = TextureRect { umin: 0, umax: 1, vmin: 0, vmax: 1 };
+    for (bbox, at) in [(nothing, 0.5), (two, 0.75), (whole(16), 0.5)] {
+        assert_eq!(sample_shadow(&listing, &empty, bbox, [at; 2], 1e9, [0.05; 2], || 0.5), 0.0);
+    }
     let corner = map(16, |x, y| if x < 2 && y < 2 { 1.0 } else { f32::INFINITY });
+    assert_eq!(sample_shadow(&listing, &corner, two, [0.75; 2], 10.0, [0.02; 2], || 0.5), 0.0);
+    assert_eq!(sample_shadow(&listing, &corner, two, [0.06; 2], 10.0, [0.001; 2], || 0.5), 1.0);
     let mut probe = Counters::default();
     let shadow = ShadowMap { filter: presets::reeves87(), map: umbrage_depth::Bbox::from(&corner) };
     let at = SurfacePoint::at(Vec3::new(4.0, -10.0, 4.0), Vec3::Y);
-    shadow.fractions_probed(&[at], KEY, &mut [0.0], &mut probe);
-    assert_eq!((probe.culled_lit, probe.lookups), (1, 0));
+    let mut out = [f32::NAN];
+    shadow.fractions_probed(&[at], KEY, &mut out, &mut probe);
+    assert_eq!((out, probe.culled_lit, probe.lookups), ([0.0], 1, 0));
 }
 
 #[test]
@@ -161,7 +206,7 @@ fn a_ramp_spreads_the_bias_without_noise() {
 }
 
 #[test]
-fn v21_v24_r87_13_levels_are_multiples_of_the_region_s_own_count_t_20() {
+fn v24_r87_13_levels_are_multiples_of_the_region_s_own_count_t_20() {
     let edge = map(64, |x, _| if x < 32 { 1.0 } else { f32::INFINITY });
     for half in [Vec2::splat(2.0), Vec2::new(5.25, 0.75), Vec2::new(1.5, 9.0)] {
         let filter = Pcf { res_factor: 1.0, ..Pcf::default() };
@@ -175,42 +220,68 @@ fn v21_v24_r87_13_levels_are_multiples_of_the_region_s_own_count_t_20() {
 }
 
 #[test]
-fn v32_samples_outside_a_cone_are_dark_for_a_spot_w92_6_e_r13() {
-    let rules = |rules| map(64, |_, _| f32::INFINITY).view_with(rules);
-    // The region's left quarter lies outside the map.
-    let region = receiver(&lamp(64), 10.0, Vec2::new(2.0, 32.0), Vec2::splat(4.0));
-    let filter = Pcf { res_factor: 1.0, ..Pcf::default() };
-    assert_eq!(fraction(filter, rules(Rules::OPEN), &region, KEY), 0.0);
-    assert_eq!(fraction(filter, rules(Rules::SPOT), &region, KEY), 0.25);
-}
-
-trait WithRules {
-    fn view_with(self, rules: Rules) -> Raw;
-}
-
-impl WithRules for Raw {
-    fn view_with(self, rules: Rules) -> Raw {
-        Raw::new(umbrage_depth::DepthMap::view(&self).with_rules(rules), self.depths().to_vec()).unwrap()
+fn v21_d_13_a_straight_edge_becomes_a_ramp_of_the_region_s_width() {
+    let edge = map(64, |x, _| if x < 32 { 1.0 } else { f32::INFINITY });
+    let pattern = Uniform { num_samples: 65_536 };
+    let filter = Pcf { pattern, depth: Biased::default(), res_factor: 1.0, min_size: 0.0, cull: true };
+    let share = |x: f32| {
+        let region = receiver(&lamp(64), 10.0, Vec2::new(x, 32.0), Vec2::new(1.0, 1.0));
+        fraction(filter, edge.clone(), &region, KEY)
+    };
+    // 2 texels wide in all, 1.6 from 90 to 10 %.
+    for (x, want) in [(30.9, 1.0), (31.2, 0.9), (32.0, 0.5), (32.8, 0.1), (33.1, 0.0)] {
+        assert!((share(x) - want).abs() < 0.01, "{x}: {}", share(x));
     }
+}
+
+#[test]
+fn v32_samples_outside_a_cone_are_dark_for_a_spot_w92_6_e_r13() {
+    // A lit map; the region's left quarter lies outside the map, or outside the cone inside it.
+    let lit = |view: View| Raw::new(view, vec![f32::INFINITY; 64 * 64]).unwrap();
+    let filter = Pcf { res_factor: 1.0, ..Pcf::default() };
+    let outside = receiver(&lamp(64), 10.0, Vec2::new(2.0, 32.0), Vec2::splat(4.0));
+    assert_eq!(fraction(filter, lit(lamp(64).with_rules(Rules::OPEN)), &outside, KEY), 0.0);
+    assert_eq!(fraction(filter, lit(lamp(64).with_rules(Rules::SPOT)), &outside, KEY), 0.25);
+    // The cone of 75° in a map of 90°: its rim crosses the middle row at 32 − 32 · tan 37.5° = 7.4455.
+    let tan_half = 37.5f64.to_radians().tan();
+    assert!((tan_half - 0.767_327).abs() < 1e-6);
+    let cone = lamp(64).with_cone(Some(tan_half)).unwrap();
+    let rim = receiver(&lamp(64), 10.0, Vec2::new(7.4455 + 0.1, 32.0), Vec2::new(0.2, 0.01));
+    let mean = |rules| {
+        (0..400).map(|i| fraction(filter, lit(cone.with_rules(rules)), &rim, KEY.region(i))).sum::<f32>() / 400.0
+    };
+    assert_eq!(mean(Rules::OPEN), 0.0);
+    assert!((mean(Rules::SPOT) - 0.25).abs() < 0.08, "{}", mean(Rules::SPOT));
+    let beyond = receiver(&lamp(64), 10.0, Vec2::new(5.0, 32.0), Vec2::splat(0.5));
+    assert_eq!(fraction(filter, lit(cone.with_rules(Rules::SPOT)), &beyond, KEY), 1.0);
 }
 
 #[test]
 fn v33_t_4_ranges_settle_a_region_only_when_they_may_r87_22() {
     let tile = Tiled::from(&map(32, |x, _| if x % 2 == 0 { 40.0 } else { 50.0 }));
     let holed = Tiled::from(&map(32, |x, _| if x == 31 { f32::INFINITY } else { 45.0 }));
+    let empty = Tiled::from(&map(32, |_, _| f32::INFINITY));
     let settled = |map: &Tiled, z: f32| {
-        let shadow = ShadowMap { filter: presets::reeves87(), map: map.clone() };
+        let region = receiver(&lamp(32), z, Vec2::splat(16.0), Vec2::splat(2.0));
         let mut probe = Counters::default();
-        let world = lamp(32).world_at(glam::DVec2::splat(16.0), -1.0 / f64::from(z));
-        let mut out = [0.0];
-        shadow.fractions_probed(&[SurfacePoint::at(world.as_vec3(), Vec3::Y)], KEY, &mut out, &mut probe);
-        (probe.lookups == 0).then_some(out[0])
+        let ask = |filter: Pcf, probe: &mut Counters| dispatch!(Level::new(), simd => filter.shadow(simd, map, &region, KEY, probe));
+        let answer = ask(presets::reeves87(), &mut probe);
+        assert_eq!(answer, ask(Pcf { cull: false, ..presets::reeves87() }, &mut Counters::default()), "z = {z}");
+        (probe.lookups == 0).then_some(answer)
     };
-    let expected =
-        [(60.0, Some(1.0)), (50.41, Some(1.0)), (50.35, None), (40.29, Some(0.0)), (40.31, None), (45.0, None)];
+    let expected = [
+        (60.0, Some(1.0)),
+        (50.41, Some(1.0)),
+        (50.40, None),
+        (50.35, None),
+        (40.30, Some(0.0)),
+        (40.31, None),
+        (45.0, None),
+    ];
     for (z, want) in expected {
         assert_eq!(settled(&tile, z), want, "z = {z}");
     }
+    assert_eq!(settled(&empty, 60.0), Some(0.0));
     // One empty texel forbids the dark shortcut, not the lit one.
     assert_eq!(settled(&holed, 60.0), None);
     assert_eq!(settled(&holed, 45.0), Some(0.0));
@@ -218,36 +289,58 @@ fn v33_t_4_ranges_settle_a_region_only_when_they_may_r87_22() {
 
 #[test]
 fn r87_22_culling_changes_no_bit() {
+    // Full tiles on the left, tiles with holes on the right: both shortcuts are taken.
     let bumpy = |x: u32, y: u32| match (x / 7 + y / 5) % 4 {
-        0 => f32::INFINITY,
+        0 if x >= 64 => f32::INFINITY,
         n => 9.0 + n as f32 * 0.4 + (x % 3) as f32 * 0.05,
     };
     let tiled = Tiled::from(&map(128, bumpy));
+    let mut probe = Counters::default();
     for (index, half) in [0.3, 2.0, 7.0, 20.0].into_iter().enumerate() {
         for step in 0..500u32 {
             let key = KEY.region(step);
             let centre = Vec2::new(key.unit(0, 0), key.unit(0, 1)) * 140.0 - 6.0;
             let region = receiver(&lamp(128), 8.8 + 2.5 * key.unit(0, 2), centre, Vec2::splat(half));
-            let on = Pcf { res_factor: 1.0, ..Pcf::default() };
-            let plane = Pcf {
-                pattern: on.pattern,
-                depth: OnPlane { bias: Bias::World(0.1) },
-                res_factor: 1.0,
-                min_size: 0.0,
-                cull: true,
-            };
-            let (a, b) = (
-                fraction(on, tiled.clone(), &region, key),
-                fraction(Pcf { cull: false, ..on }, tiled.clone(), &region, key),
-            );
-            assert_eq!(a.to_bits(), b.to_bits(), "set {index}, step {step}");
-            let (a, b) = (
-                fraction(plane, tiled.clone(), &region, key),
-                fraction(Pcf { cull: false, ..plane }, tiled.clone(), &region, key),
-            );
-            assert_eq!(a.to_bits(), b.to_bits(), "plane, set {index}, step {step}");
+            let constant = Pcf { res_factor: 1.0, ..Pcf::default() };
+            let depth = OnPlane { bias: Bias::World(0.1) };
+            let plane = Pcf { pattern: constant.pattern, depth, res_factor: 1.0, min_size: 0.0, cull: true };
+            let pairs = [
+                (
+                    asked(&constant, &tiled, &region, key, &mut probe),
+                    fraction(Pcf { cull: false, ..constant }, tiled.clone(), &region, key),
+                ),
+                (
+                    asked(&plane, &tiled, &region, key, &mut probe),
+                    fraction(Pcf { cull: false, ..plane }, tiled.clone(), &region, key),
+                ),
+            ];
+            for (cut, uncut) in pairs {
+                assert_eq!(cut.to_bits(), uncut.to_bits(), "set {index}, step {step}");
+            }
         }
     }
+    assert!(probe.culled_lit > 300 && probe.culled_dark > 300 && probe.sampled > 300, "{probe:?}");
+}
+
+fn asked<F: Filter>(filter: &F, map: &Tiled, receiver: &Receiver, key: Key, probe: &mut Counters) -> f32 {
+    dispatch!(Level::new(), simd => filter.shadow(simd, map, receiver, key, probe))
+}
+
+#[test]
+#[should_panic(expected = "kinds of a receiver's depth and of the map's")]
+fn c_4_a_receiver_of_another_kind_is_refused() {
+    let screen = lamp(16).with_kind(Kind::Screen);
+    let region = receiver(&screen, 10.0, Vec2::splat(8.0), Vec2::splat(1.0));
+    fraction(presets::reeves87(), map(16, |_, _| 1.0), &region, KEY);
+}
+
+#[test]
+fn r87_2_light_space_is_a_signed_axial_distance() {
+    let view = lamp(16);
+    // Off the axis the distance along it counts, not the distance from the light; behind it there is no receiver.
+    let receiver = view.receiver(&SurfacePoint::at(Vec3::new(6.0, -8.0, 3.0), Vec3::Y)).unwrap();
+    assert_eq!((receiver.kind, receiver.depth), (Kind::Axial, 8.0));
+    assert_eq!(view.receiver(&SurfacePoint::at(Vec3::new(6.0, 8.0, 3.0), Vec3::Y)), Err(Where::Behind));
 }
 
 fn mean(pattern: impl umbrage_sample::Pattern, map: &Raw, region: &Receiver) -> f32 {

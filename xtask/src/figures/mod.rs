@@ -3,20 +3,22 @@
 mod curves;
 mod reeves_idea;
 mod reeves_parameters;
+mod spheres;
 mod studio;
-mod williams;
+mod williams_shadow;
+mod williams_views;
 
 use crate::figure::Figure;
 
 /// Every figure.
 pub const FIGURES: &[&Figure] = &[
-    &williams::F1,
-    &williams::F2,
-    &williams::F3,
-    &williams::F4,
-    &williams::F5,
-    &williams::F6,
-    &williams::TEAPOT,
+    &williams_views::F1,
+    &williams_views::F2,
+    &williams_shadow::F3,
+    &williams_shadow::F4,
+    &williams_shadow::F5,
+    &williams_shadow::F6,
+    &williams_views::TEAPOT,
     &reeves_idea::F1,
     &reeves_idea::F2,
     &reeves_idea::F3,

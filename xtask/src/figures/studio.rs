@@ -74,7 +74,10 @@ impl Set {
     fn ray_cast(&self, cx: &Context, frame: &Frame, what: &str) -> Arc<Picture> {
         static MADE: OnceLock<Mutex<HashMap<String, Arc<Picture>>>> = OnceLock::new();
         let frame = Frame { seed: cx.seed, ..*frame };
-        let name = format!("{} {what} {:?} {frame:?}", self.scene.name, self.scene.camera);
+        let Scene { name, lights, camera, .. } = &self.scene;
+        // Where the light stands counts, not how finely its map is cut.
+        let light = sized(&lights[0].view, 1);
+        let name = format!("{name} {what} {light:?} {camera:?} {frame:?}");
         let made = MADE.get_or_init(Mutex::default);
         if let Some(known) = made.lock().ok().and_then(|made| made.get(&name).cloned()) {
             return known;

@@ -11,12 +11,13 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// M3: peak over median magnitude. Moiré is large, noise near 3–5; 0 for a uniform window; +∞ for a pure wave.
+    /// Peak over median magnitude. Moiré is large, noise near 3–5; 0 for a uniform window; +∞ for a pure wave.
     pub fn ratio(&self) -> f64 {
         if self.peak > 0.0 { self.peak / self.median } else { 0.0 }
     }
 
-    /// The same of powers: the ratio's square.
+    /// M3: the same of powers, the ratio's square. That is what the recorded figures of Williams' moiré are: hundreds and more,
+    /// against about 10 to 25 for noise.
     pub fn power_ratio(&self) -> f64 {
         self.ratio() * self.ratio()
     }
