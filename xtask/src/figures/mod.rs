@@ -2,7 +2,9 @@
 
 mod curves;
 mod reeves_idea;
+mod reeves_listing;
 mod reeves_parameters;
+mod sphere_plane;
 mod spheres;
 mod studio;
 mod williams_shadow;
@@ -22,7 +24,7 @@ pub const FIGURES: &[&Figure] = &[
     &reeves_idea::F1,
     &reeves_idea::F2,
     &reeves_idea::F3,
-    &reeves_idea::F4,
+    &reeves_listing::F4,
     &reeves_idea::F5,
     &reeves_idea::F6,
     &reeves_parameters::F7,

@@ -1,16 +1,18 @@
 //! Reeves, Salesin & Cook 1987, Figures 1 to 6: the idea, the placement of samples, the listing, the first example.
 
-use super::studio::{Set, colour_panel, error_panel, lit, of, shadow_grid, shadow_panel, truth_panel, value};
-use crate::figure::{Context, Figure, Made, Measure, Panel, Paper, Role, Table};
+use super::sphere_plane::{CAST_EDGE, PLANE, penumbra};
+use super::studio::{
+    Set, colour_panel, error_panel, lit as lit_mask, of, shadow_grid, shadow_panel, truth_panel, value,
+};
+use crate::figure::{Context, Figure, Made, Measure, Panel, Paper, Role};
 use crate::plot::{Axis, Plot, Series};
-use glam::{DVec2, UVec2, Vec2};
+use glam::{DVec2, DVec3, UVec2, Vec2};
 use umbrage_depth::{DepthMap, Raw};
 use umbrage_oracle::metrics;
-use umbrage_plane::{Bias, Footprint, SurfacePoint, TexelRect};
+use umbrage_plane::{Bias, Footprint, SurfacePoint, TexelRect, View};
 use umbrage_render::{Frame, Picture};
 use umbrage_sample::{Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Uniform, each_tap};
 use umbrage_scene::gallery;
-use umbrage_shadow::as_printed::{self, Listing, RandRange, TextureRect};
 use umbrage_shadow::{Biased, OnPlane, Pcf, presets};
 
 pub const F1: Figure = Figure {
@@ -34,17 +36,22 @@ fn on_plane() -> Pcf<Jittered, OnPlane> {
 
 fn points_of_view(cx: &Context) -> anyhow::Result<Made> {
     let pixels = cx.pick(512, 192);
-    let set = Set::new(gallery::sphere_plane(), pixels, 1024);
+    // A light that sees all that the camera does.
+    let mut scene = gallery::sphere_plane();
+    let lamp = &mut scene.lights[0].view;
+    let (eye, target) = (lamp.light().truncate(), DVec3::new(0.0, 0.0, 12.0));
+    *lamp = View::perspective(eye, target, DVec3::Y, 90f64.to_radians(), lamp.near(), lamp.far(), lamp.size())?;
+    let set = Set::new(scene, pixels, 1024);
     let light = set.scene.lights[0].view;
-    let seen_from = |view: &umbrage_plane::View| {
+    let seen_from = |view: &View| {
         let mut set = Set::new(set.scene.clone(), pixels, 1024);
         set.scene.camera = view.with_size(UVec2::splat(pixels)).unwrap_or(*view);
         set.shoot(cx, on_plane(), &Frame::default())
     };
-    let high = umbrage_plane::View::perspective(
-        glam::DVec3::new(-95.0, -150.0, 190.0),
-        glam::DVec3::new(-15.0, 0.0, 15.0),
-        glam::DVec3::Z,
+    let high = View::perspective(
+        DVec3::new(-95.0, -150.0, 190.0),
+        DVec3::new(-15.0, 0.0, 15.0),
+        DVec3::Z,
         48f64.to_radians(),
         10.0,
         600.0,
@@ -53,18 +60,17 @@ fn points_of_view(cx: &Context) -> anyhow::Result<Made> {
     let camera = set.shoot(cx, on_plane(), &Frame::default());
     let truth = set.truth_points(cx, &Frame::CENTRES);
     let exact = set.truth(cx);
-    let (mut lit, mut seen) = (0u32, 0u32);
-    for i in 0..truth.object.len() {
-        if truth.share[i] == 1.0 && truth.shadow[0][i] == 0.0 && truth.facing[0][i] > 0.2 {
-            let at = SurfacePoint::at(truth.position[i], truth.normal[i]);
-            if let Ok(receiver) = light.receiver(&at) {
-                let texel = receiver.footprint.centre.floor().as_ivec2();
-                if TexelRect::of_size(light.size()).contains(texel) {
-                    lit += 1;
-                    seen += u32::from(receiver.nearer(&light, Bias::Steps(1.0)) <= set.map.depth(texel));
-                }
-            }
-        }
+    let (mut lit, mut hidden, mut beside) = (0u32, 0u32, 0u32);
+    for i in lit_mask(&truth, 0, |_| true).into_iter().enumerate().filter(|(_, on)| *on).map(|(i, _)| i) {
+        lit += 1;
+        let seen = light.receiver(&SurfacePoint::at(truth.position[i], truth.normal[i])).is_ok_and(|receiver| {
+            let texel = receiver.footprint.centre.floor().as_ivec2();
+            beside += u32::from(!TexelRect::of_size(light.size()).contains(texel));
+            let around = TexelRect::new(texel - 1, texel + 2).texels();
+            let compared = receiver.nearer(&light, Bias::Steps(1.5));
+            around.map(|texel| set.map.depth(texel)).any(|stored| compared <= stored)
+        });
+        hidden += u32::from(!seen);
     }
     let view = |name, caption, picture: &Picture| colour_panel(name, caption, picture.size, &picture.colour);
     Ok(Made {
@@ -76,8 +82,9 @@ fn points_of_view(cx: &Context) -> anyhow::Result<Made> {
             error_panel("error", "The camera's shadow less truth", exact.size, &camera.shadow[0], &exact.shadow[0]),
         ],
         measures: vec![
-            Measure::at_least("lit points that the light sees", f64::from(seen) / f64::from(lit), "share", 0.999),
-            Measure::info("lit points facing the light by more than .2", f64::from(lit), "points"),
+            Measure::at_least("lit points of the picture", f64::from(lit), "points", 1000.0),
+            Measure::exactly("of these hidden from the light, to a texel", f64::from(hidden), "points", 0.0),
+            Measure::exactly("of these outside the light's view", f64::from(beside), "points", 0.0),
         ],
         ..Made::default()
     })
@@ -267,138 +274,6 @@ fn rendered_noise(cx: &Context, made: &mut Made) {
     ]);
 }
 
-/// Pixels of one surface inside a soft edge.
-pub fn penumbra(limit: &Picture) -> Vec<bool> {
-    metrics::both(&metrics::penumbra_mask(&limit.shadow[0]), &of(limit, |_| true))
-}
-
-pub const F4: Figure = Figure {
-    id: "R87-F4",
-    paper: Paper::Reeves87,
-    title: "The listing, printed and corrected",
-    claim: "What SampleShadow does as printed, and what it must do.",
-    make: listing,
-};
-
-fn listing(cx: &Context) -> anyhow::Result<Made> {
-    let sizes: [(f32, f32, u32, u32); 14] = [
-        (0.4, 0.4, 16, 1),
-        (0.75, 0.75, 16, 1),
-        (1.5, 1.5, 16, 1),
-        (3.0, 3.0, 16, 1),
-        (3.0, 1.0, 16, 1),
-        (8.0, 4.0, 16, 1),
-        (4.0, 8.0, 16, 1),
-        (20.0, 1.0, 16, 1),
-        (20.0, 1.0, 16, 2),
-        (1.0, 20.0, 16, 2),
-        (0.5, 40.0, 16, 1),
-        (40.0, 0.5, 16, 1),
-        (5.25, 0.75, 16, 1),
-        (24.0, 24.0, 64, 2),
-    ];
-    let head =
-        ["half-extents", "NumSamples", "MinSamples", "corrected", "as printed", "guarded"].map(String::from).to_vec();
-    let mut rows = Vec::new();
-    let mut guarded = 0;
-    for (a, b, n, m) in sizes {
-        let corrected = Jittered { num_samples: n, min_samples: m, ..Jittered::default() }.counts(Vec2::new(a, b));
-        let printed = as_printed::counts(a, b, n, m);
-        guarded += printed.guarded;
-        rows.push(vec![
-            format!("{a} × {b}"),
-            n.to_string(),
-            m.to_string(),
-            format!("{} × {}", corrected.x, corrected.y),
-            format!("{} × {}", printed.ns, printed.nt),
-            if printed.guarded > 0 { "yes" } else { "" }.into(),
-        ]);
-    }
-    // A straight edge a quarter texel left of the region's centre: V09.
-    let view = gallery::sphere_plane().lights[0].view.with_size(UVec2::splat(256))?;
-    let stored =
-        TexelRect::of_size(view.size()).texels().map(|t| if t.x >= 100 { 1.0 } else { f32::INFINITY }).collect();
-    let map = Raw::new(view, stored)?;
-    let rounds = cx.pick(40_000, 10_000);
-    let printed = |rand| {
-        let listing = Listing { rand, res_factor: 1.0, bias0: 0.0, bias1: 0.0, ..Listing::default() };
-        let bbox = TextureRect { umin: 0, umax: 255, vmin: 0, vmax: 255 };
-        let sum: f64 = (0..rounds)
-            .map(|round| {
-                let (key, mut draw) = (Key::new(cx.seed, 0, 0).region(round), 0);
-                let next = || {
-                    draw += 1;
-                    key.unit(draw, 0)
-                };
-                f64::from(as_printed::sample_shadow(
-                    &listing,
-                    &map,
-                    bbox,
-                    [100.25 / 256.0, 0.5],
-                    10.0,
-                    [2.0 / 256.0; 2],
-                    next,
-                ))
-            })
-            .sum();
-        sum / f64::from(rounds)
-    };
-    // Share across the edge by position: the printed range moves the whole ramp.
-    let curve = |rand| -> Vec<(f64, f64)> {
-        (0..=48)
-            .map(|step| {
-                let s = 97.0 + f64::from(step) / 8.0;
-                let listing = Listing { rand, res_factor: 1.0, bias0: 0.0, bias1: 0.0, ..Listing::default() };
-                let bbox = TextureRect { umin: 0, umax: 255, vmin: 0, vmax: 255 };
-                let mean = (0..400u32)
-                    .map(|round| {
-                        let (key, mut draw) = (Key::new(cx.seed, 1, 0).region(round), 0);
-                        let next = || {
-                            draw += 1;
-                            key.unit(draw, 0)
-                        };
-                        f64::from(as_printed::sample_shadow(
-                            &listing,
-                            &map,
-                            bbox,
-                            [s as f32 / 256.0, 0.5],
-                            10.0,
-                            [2.0 / 256.0; 2],
-                            next,
-                        ))
-                    })
-                    .sum::<f64>();
-                (s, mean / 400.0)
-            })
-            .collect()
-    };
-    let plot = Plot::new(
-        "A straight edge at column 100",
-        Axis::linear("centre of the region, texels"),
-        Axis::linear("share in shadow"),
-    )
-    .add(Series::line("Rand() in [−1, 1): corrected", curve(RandRange::Signed)))
-    .add(Series::line("Rand() in [0, 1): as printed", curve(RandRange::Unit)));
-    let most = |n| {
-        let pattern = Jittered { num_samples: n, ..Jittered::default() };
-        let steps = (1..400).flat_map(|i| (1..400).map(move |j| Vec2::new(i as f32, j as f32) * 0.05));
-        f64::from(steps.map(|half| pattern.counts(half).element_product()).max().unwrap_or(0))
-    };
-    Ok(Made {
-        tables: vec![Table { name: "counts".into(), head, rows }],
-        plots: vec![("edge".into(), plot.svg())],
-        measures: vec![
-            Measure::within("edge, Rand() in [−1, 1) (V09)", printed(RandRange::Signed), "share", 0.5605, 0.5645),
-            Measure::within("edge, Rand() in [0, 1) (V09)", printed(RandRange::Unit), "share", 0.623, 0.627),
-            Measure::exactly("divisions by zero that the guards met", f64::from(guarded), "regions", 2.0),
-            Measure::exactly("most samples for NumSamples 16 (V07)", most(16), "samples", 22.0),
-            Measure::exactly("most samples for NumSamples 4 (V07)", most(4), "samples", 6.0),
-        ],
-        note: "Jitter drawn from [0, 1) reaches only a quarter of each cell, and shadows move half a cell's half toward −s and −t.".into(),
-        ..Made::default()
-    })
-}
-
 pub const F5: Figure = Figure {
     id: "R87-F5",
     paper: Paper::Reeves87,
@@ -429,11 +304,6 @@ fn example(cx: &Context) -> anyhow::Result<Made> {
     })
 }
 
-/// Ids of the sphere and the plane in the gallery's sphere scene.
-pub const SPHERE: u32 = 0;
-/// See [`SPHERE`].
-pub const PLANE: u32 = 1;
-
 pub const F6: Figure = Figure {
     id: "R87-F6",
     paper: Paper::Reeves87,
@@ -454,9 +324,7 @@ fn component(cx: &Context) -> anyhow::Result<Made> {
     let everywhere = of(&ordinary, |_| true);
     let levels = metrics::levels_per_region(&filtered.shadow[0], 22);
     let map = cx.pick("2048²", "768²");
-    let zoomed = |name, caption, picture: &Picture| {
-        super::studio::zoomed(name, caption, picture, super::reeves_parameters::CAST_EDGE, 8)
-    };
+    let zoomed = |name, caption, picture: &Picture| super::studio::zoomed(name, caption, picture, CAST_EDGE, 8);
     Ok(Made {
         panels: vec![
             shadow_panel("a-ordinary", "(a) Ordinary z-buffer", &ordinary).with("map", map).with("bias", "0.35").against("truth"),
@@ -483,10 +351,4 @@ fn component(cx: &Context) -> anyhow::Result<Made> {
         note: "Judged at ResFactor 1, where a region is a pixel; ResFactor 3 softens the edge on purpose, away from a point light's.".into(),
         ..Made::default()
     })
-}
-
-/// False shadow over the plane and over the sphere (M2).
-pub fn false_shadow(picture: &Picture, truth: &Picture, border: usize) -> (f64, f64) {
-    let on = |object: u32| value(metrics::false_shadow(&picture.shadow[0], &lit(truth, border, |id| id == object)));
-    (on(PLANE), on(SPHERE))
 }

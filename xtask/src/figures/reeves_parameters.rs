@@ -1,10 +1,10 @@
 //! Reeves, Salesin & Cook 1987, Figures 7 to 10, the float and pass-1 remarks, Table 2: what each parameter does.
 
-use super::reeves_idea::{PLANE, SPHERE, false_shadow, penumbra};
+use super::sphere_plane::{CAST_EDGE, PLANE, SPHERE, TERMINATOR, false_shadow, penumbra};
 use super::studio::{
     Set, error_panel, of, shadow_grid, shadow_panel, truth_panel, value, with_kind, zoomed, zoomed_error,
 };
-use crate::figure::{Context, Figure, Made, Measure, Panel, Paper, Table};
+use crate::figure::{Context, Figure, Made, Measure, Panel, Paper, Role, Table};
 use crate::plot::{Axis, Plot, Series};
 use glam::{DVec2, DVec3, UVec2};
 use umbrage_depth::{Bbox, DepthMap, Raw, Tiled};
@@ -25,9 +25,6 @@ fn jittered(num_samples: u32) -> Jittered {
     Jittered { num_samples, ..Jittered::default() }
 }
 
-/// Where the sphere scene's zooms look: the cast shadow's edge on the plane and the sphere's own terminator, as fractions of the picture.
-pub const CAST_EDGE: DVec2 = DVec2::new(0.70, 0.47);
-const TERMINATOR: DVec2 = DVec2::new(0.56, 0.47);
 /// Where the box scene's zooms look: the straight edge of the box's shadow.
 const BOX_EDGE: DVec2 = DVec2::new(0.475, 0.5);
 
@@ -45,12 +42,12 @@ fn num_samples(cx: &Context) -> anyhow::Result<Made> {
     let mask = penumbra(&limit);
     let noise = |picture: &Picture| value(metrics::rms(&picture.shadow[0], &limit.shadow[0], &mask));
     let mut made = Made::default();
+    let random_limit = set.shoot(cx, soft(Uniform { num_samples: 1024 }, 8.0), &Frame::CENTRES);
     let (mut jitter, mut uniform) = (Vec::new(), Vec::new());
     for (n, most) in [(1, 2), (4, 7), (16, 23), (64, 87)] {
         let picture = set.shoot(cx, soft(jittered(n), 8.0), &Frame::CENTRES);
         jitter.push((f64::from(n), noise(&picture)));
         let random = set.shoot(cx, soft(Uniform { num_samples: n }, 8.0), &Frame::CENTRES);
-        let random_limit = set.shoot(cx, soft(Uniform { num_samples: 1024 }, 8.0), &Frame::CENTRES);
         uniform.push((f64::from(n), value(metrics::rms(&random.shadow[0], &random_limit.shadow[0], &mask))));
         let levels = metrics::levels_per_region(&picture.shadow[0], 86);
         let name = format!("NumSamples {n}: levels per region");
@@ -64,8 +61,10 @@ fn num_samples(cx: &Context) -> anyhow::Result<Made> {
             made.panels.push(zoomed_error("error", "16 samples less 1,024", &picture, &limit, BOX_EDGE, 8));
         }
     }
-    let panel = zoomed("limit", "1,024 samples", &limit, BOX_EDGE, 8);
-    made.panels.push(panel.role(crate::figure::Role::Truth));
+    let panel = zoomed("limit", "1,024 samples: the filter's own limit", &limit, BOX_EDGE, 8);
+    made.panels.push(panel.role(Role::Truth));
+    let panel = zoomed("truth", "Ray-traced truth (a point light: a sharp edge)", &set.truth(cx), BOX_EDGE, 8);
+    made.panels.push(panel.role(Role::Truth));
     let slope = |points: &[(f64, f64)]| value(metrics::log_log_fit(points).map(|fit| fit.slope));
     made.measures.push(Measure::within(
         "jittered: slope of log noise against log N (M6)",
@@ -111,8 +110,18 @@ fn res_factor(cx: &Context) -> anyhow::Result<Made> {
     let exact = metrics::profile(shadow_grid(&truth), &band);
     let mut made = Made::default();
     let (mut widths, mut shifts) = (Vec::new(), 0.0f64);
-    for factor in [1.0f32, 2.0, 3.0, 4.0, 8.0] {
+    // What the map's own texels show: the ordinary z-buffer.
+    let ordinary = set.shoot(cx, presets::ordinary(Bias::World(1.4)), &Frame::CENTRES);
+    let edge = metrics::both(&metrics::edge_mask(shadow_grid(&truth), 4), &of(&truth, |_| true));
+    let mut unlike_map = Vec::new();
+    for factor in [0.25f32, 1.0, 2.0, 3.0, 4.0, 8.0] {
         let picture = set.shoot(cx, soft(jittered(16), factor), &Frame::CENTRES);
+        unlike_map.push(value(metrics::rms(&picture.shadow[0], &ordinary.shadow[0], &edge)));
+        if factor < 1.0 {
+            let panel = zoomed("f0.25", "ResFactor ¼", &picture, BOX_EDGE, 8);
+            made.panels.push(panel.with("NumSamples", 16).against("truth"));
+            continue;
+        }
         let profile = metrics::profile(shadow_grid(&picture), &band);
         widths.push((f64::from(factor), value(profile.width())));
         let shift = value(profile.shift(&exact)).abs();
@@ -126,7 +135,7 @@ fn res_factor(cx: &Context) -> anyhow::Result<Made> {
         }
     }
     let panel = zoomed("truth", "Ray-traced truth (a point light: a sharp edge)", &truth, BOX_EDGE, 8);
-    made.panels.push(panel.role(crate::figure::Role::Truth));
+    made.panels.push(panel.role(Role::Truth));
     let steps = |n: u32| {
         let picture = set.shoot(cx, soft(jittered(n), 8.0), &Frame::CENTRES);
         let mask = penumbra(&picture);
@@ -138,9 +147,12 @@ fn res_factor(cx: &Context) -> anyhow::Result<Made> {
         Measure::within("slope", value(fit.map(|f| f.slope)), "px per unit", 0.8 * 0.85, 0.8 * 1.15),
         Measure::at_most("largest shift of the edge's middle (M4)", shifts, "px", 0.5),
         Measure::info("edge width at ResFactor 1", widths[0].1, "px"),
-        Measure::info("levels in the soft edge at ResFactor 8, 16 samples", steps(16), "levels"),
-        Measure::info("the same, 64 samples", steps(64), "levels"),
+        Measure::at_most("levels in the soft edge at ResFactor 8, 16 samples", steps(16), "levels", 32.0),
+        Measure::at_least("the same, 64 samples, over that", steps(64) / steps(16), "ratio", 2.0),
+        Measure::info("ResFactor ¼: difference from the map's own aliases at edges", unlike_map[0], "rms share"),
+        Measure::at_most("the same over that of ResFactor 3", unlike_map[0] / unlike_map[3], "ratio", 0.7),
     ];
+    // D-13 for an edge along an axis: the region is a pixel wide, times ResFactor, and .8 of its ramp lies between 10 and 90 %.
     let predicted = [0.0, 8.0].map(|f| (f, 0.8 * f)).to_vec();
     let plot = Plot::new("Width of a straight edge", Axis::linear("ResFactor"), Axis::linear("10–90 % width, px"))
         .add(Series::line("predicted ramp", predicted))
@@ -186,7 +198,7 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
     }
     for (place, centre) in [("edge on the plane", CAST_EDGE), ("self-shadow on the sphere", TERMINATOR)] {
         let panel = zoomed(&format!("truth-{place}"), &format!("Ray-traced truth, {place}"), &exact, centre, 6);
-        made.panels.push(panel.role(crate::figure::Role::Truth));
+        made.panels.push(panel.role(Role::Truth));
     }
     let (shift, predicted, seen) = terminator(cx)?;
     let falls = |values: &[f64]| f64::from(u8::from(values.windows(2).all(|pair| pair[1] < pair[0])));
@@ -208,9 +220,14 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
     Ok(made)
 }
 
-/// Mean signed displacement of an edge, in pixels: missing shadow area over edge length, within a mask around it.
+/// Mean signed displacement of an edge, in pixels: missing shadow area over the length of truth's contour, both within a mask around it.
 fn excess(picture: &Picture, truth: &Picture, mask: &[bool]) -> Option<f64> {
-    let length = metrics::contour_deviation(shadow_grid(truth), shadow_grid(truth), 1.0)?.length;
+    let inside = |at: DVec2| mask[at.y as usize * truth.size.x as usize + at.x as usize];
+    let pieces = metrics::contour(shadow_grid(truth), 0.5);
+    let length: f64 = pieces.iter().filter(|[a, b]| inside((*a + *b) * 0.5)).map(|[a, b]| a.distance(*b)).sum();
+    if length == 0.0 {
+        return None;
+    }
     let missing = (0..mask.len()).filter(|&i| mask[i]).map(|i| f64::from(truth.shadow[0][i] - picture.shadow[0][i]));
     Some(missing.sum::<f64>() / length)
 }
@@ -271,7 +288,7 @@ fn map_size(cx: &Context) -> anyhow::Result<Made> {
         made.panels.push(zoomed_error(&name, &caption, &picture, &truth, CAST_EDGE, 6));
         if texels == 1024 {
             let panel = zoomed("truth", "Ray-traced truth", &truth, CAST_EDGE, 6);
-            made.panels.push(panel.role(crate::figure::Role::Truth));
+            made.panels.push(panel.role(Role::Truth));
         }
     }
     let falls = |values: &[f64]| f64::from(u8::from(values.windows(2).all(|pair| pair[1] < pair[0])));
@@ -436,10 +453,8 @@ fn storage(_cx: &Context) -> anyhow::Result<Made> {
         });
         let grey = umbrage_io::depth_view(&raw);
         let file = name.split([',', ':', ' ']).next().unwrap_or("map").to_owned();
-        made.panels.push(
-            Panel::grey(&file, &name.replace(": tiles over box", ""), UVec2::splat(1024), grey)
-                .role(crate::figure::Role::Map),
-        );
+        made.panels
+            .push(Panel::grey(&file, &name.replace(": tiles over box", ""), UVec2::splat(1024), grey).role(Role::Map));
     }
     for (name, raw, boxed, tiled) in [
         ("paper: sphere", 4.0, 0.4, 0.4),
