@@ -270,3 +270,14 @@ impl Made {
         }
     }
 }
+
+impl Verdict {
+    /// As people read it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Reproduced => "reproduced",
+            Self::Caveat => "caveat",
+            Self::Missed => "missed",
+        }
+    }
+}

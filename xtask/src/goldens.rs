@@ -40,22 +40,22 @@ pub struct Goldens {
     files: Vec<(&'static str, Vec<u8>)>,
 }
 
-/// Makes everything that is kept: the README's figures at full size in the run's folder, all quick figures in `quick`
-/// below it. Where the run is of some figures only, so is the comparison.
+/// Makes everything that is kept: the README's figures at full size in `readme` below the run's folder, all quick figures
+/// in `quick`. A gallery that stands in the run's folder stays as it is. Where the run is of some figures only, so is the comparison.
 pub fn all(run: &Run) -> anyhow::Result<Goldens> {
     let shown = |id: &str| PICTURES.iter().any(|picture| picture.figure == id);
     let full = Run {
         figures: run.figures.iter().copied().filter(|figure| shown(figure.id)).collect(),
         context: Context { quick: false, ..run.context },
         threads: run.threads,
-        out: run.out.clone(),
+        out: run.out.join("readme"),
     };
     let mut files = Vec::new();
     if !full.figures.is_empty() {
         full.make()?;
     }
     for picture in PICTURES.iter().filter(|picture| full.figures.iter().any(|figure| figure.id == picture.figure)) {
-        let path = run.out.join(picture.figure).join(format!("{}.png", file_stem(picture.panel)));
+        let path = full.out.join(picture.figure).join(format!("{}.png", file_stem(picture.panel)));
         files.push((picture.file, std::fs::read(&path).with_context(|| path.display().to_string())?));
     }
     let quick = Run {

@@ -2,7 +2,6 @@
 
 use crate::figure::{Bound, Role, Verdict};
 use crate::record::{FigureRecord, MeasureRecord, PanelRecord, Report, TableRecord};
-use crate::run::word;
 use crate::text::escape;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -46,11 +45,11 @@ fn joined<T>(items: impl IntoIterator<Item = T>, each: impl Fn(T) -> String) -> 
 }
 
 fn class(verdict: Verdict) -> String {
-    format!("v-{}", word(verdict))
+    format!("v-{}", verdict.word())
 }
 
 fn badge(verdict: Verdict) -> String {
-    format!("<span class=\"badge {}\">{}</span>", class(verdict), word(verdict))
+    format!("<span class=\"badge {}\">{}</span>", class(verdict), verdict.word())
 }
 
 fn tally(report: &Report) -> String {
@@ -58,7 +57,7 @@ fn tally(report: &Report) -> String {
     for verdict in [Verdict::Reproduced, Verdict::Caveat, Verdict::Missed] {
         let count = report.count(verdict);
         if count > 0 {
-            let _ = write!(text, "<li class=\"{}\"><b>{count}</b> {}</li>", class(verdict), word(verdict));
+            let _ = write!(text, "<li class=\"{}\"><b>{count}</b> {}</li>", class(verdict), verdict.word());
         }
     }
     text

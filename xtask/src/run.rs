@@ -56,6 +56,8 @@ impl Run<'_> {
     fn make_one(&self, figure: &Figure, key: &str) -> anyhow::Result<(FigureRecord, Timings)> {
         let start = Instant::now();
         let made = (figure.make)(&self.context)?;
+        let judged = made.measures.iter().any(|measure| measure.pass().is_some());
+        anyhow::ensure!(judged || self.context.quick, "no measure is judged: there is nothing to call reproduced");
         let mut timings = vec![("total".to_string(), start.elapsed().as_secs_f64())];
         timings.extend(made.timings.iter().cloned());
         let record = folder::write(&self.out, figure, &made, key, &timings)?;
@@ -120,7 +122,7 @@ impl Progress {
     fn end(&self, record: &FigureRecord, timings: &Timings, fresh: bool) {
         let seconds = timings.first().map_or(0.0, |total| total.1);
         let spent = if fresh { format!("{seconds:6.1} s") } else { "   kept ".into() };
-        let mut line = format!("{spent}  {:10}  {}: {}", word(record.verdict), record.id, record.title);
+        let mut line = format!("{spent}  {:10}  {}: {}", record.verdict.word(), record.id, record.title);
         if record.verdict == Verdict::Missed {
             for measure in record.measures.iter().filter(|measure| measure.pass == Some(false)) {
                 let (name, value, bound) = (&measure.name, measure.value_text(), &measure.bound);
@@ -137,15 +139,6 @@ impl Progress {
 
     fn finish(&self) {
         self.bar.finish_and_clear();
-    }
-}
-
-/// A verdict as people read it.
-pub fn word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Reproduced => "reproduced",
-        Verdict::Caveat => "caveat",
-        Verdict::Missed => "missed",
     }
 }
 

@@ -12,7 +12,8 @@ use umbrage_shadow::Shadow;
 /// How the camera's picture is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame {
-    /// Visibility samples a pixel along each axis: 1, 2, 4 or 8 (other values count as the next lower of these).
+    /// Visibility samples a pixel along each axis: 1, 2, 4 or 8 (other values count as the next lower of these). All samples of a
+    /// picture are one grid of at most 32,768 a side: pictures too large for that are drawn with as many as fit.
     pub axis: u32,
     /// Samples jittered within their cells instead of at cell centres.
     pub stochastic: bool,
@@ -37,7 +38,7 @@ impl Frame {
 
     /// The camera with this frame's samples as its texels.
     pub fn sample_view(&self, camera: &View) -> View {
-        let axis = self.axis();
+        let axis = self.axis_for(camera);
         let sampling = if self.stochastic {
             Sampling::Jittered { seed: self.seed ^ self.number.rotate_left(16) }
         } else {
@@ -47,9 +48,9 @@ impl Frame {
         view.with_kind(Kind::Axial).with_sampling(sampling)
     }
 
-    fn axis(&self) -> u32 {
-        let wanted = self.axis.clamp(1, 8);
-        1 << wanted.ilog2()
+    fn axis_for(&self, camera: &View) -> u32 {
+        let fitting = (32_768 / camera.size().max_element()).min(8);
+        1 << self.axis.clamp(1, fitting).ilog2()
     }
 }
 
@@ -91,10 +92,8 @@ pub struct Picture {
 ///
 /// Lights beyond the end of `shadows`, and those that do not cast ([`umbrage_scene::Light::casts`]), have no shadow.
 pub fn picture(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame) -> Picture {
-    let axis = frame.axis();
+    let axis = frame.axis_for(&scene.camera);
     let view = frame.sample_view(&scene.camera);
-    // A picture too large to be supersampled as one grid is drawn at one sample a pixel.
-    let axis = if view.size() == scene.camera.size() { 1 } else { axis };
     let soup = Soup::all(scene, &scene.camera);
     let bins = Bins::new(&view, TexelRect::of_size(view.size()), Cull::None, soup.triangles());
     let size = scene.camera.size();

@@ -313,10 +313,12 @@ fn number_up_to(most: f32, field: &str, value: &str) -> Result<f32, RecipeError>
     number(field, value).ok().filter(|n| *n <= most).ok_or_else(|| RecipeError::value(field, value, expected))
 }
 
+/// A number of one unit as a bias.
+type Unit = fn(f32) -> Bias;
+
 /// The digits of a bias, and its unit.
-fn unit(value: &str) -> (&str, fn(f32) -> Bias) {
-    let units: [(char, fn(f32) -> Bias); 4] =
-        [('w', Bias::World), ('t', Bias::Texels), ('s', Bias::Steps), ('m', Bias::Map)];
+fn unit(value: &str) -> (&str, Unit) {
+    let units: [(char, Unit); 4] = [('w', Bias::World), ('t', Bias::Texels), ('s', Bias::Steps), ('m', Bias::Map)];
     let named = units.into_iter().find_map(|(letter, unit)| Some((value.strip_suffix(letter)?, unit)));
     named.unwrap_or((value, Bias::World))
 }

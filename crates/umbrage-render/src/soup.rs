@@ -2,7 +2,7 @@ use glam::Vec3;
 use std::borrow::Cow;
 use umbrage_plane::View;
 use umbrage_raster::Triangle;
-use umbrage_scene::{Mesh, Object, Scene};
+use umbrage_scene::{Mesh, MeshError, Object, Scene};
 
 /// The triangles of a scene for one view, and the way back from a triangle's index to its mesh.
 ///
@@ -20,11 +20,19 @@ struct Piece<'a> {
 
 impl<'a> Soup<'a> {
     /// The objects that cast: what pass 1 draws (R87-5).
+    ///
+    /// # Panics
+    /// When a mesh's indices or lengths do not fit together ([`Mesh::check`]). Vertices that are not finite only cost their
+    /// triangles, which the rasteriser skips and counts.
     pub fn casters(scene: &'a Scene, view: &View) -> Self {
         Self::of(scene, view, |object| object.casts)
     }
 
     /// Every object: what the camera sees.
+    ///
+    /// # Panics
+    /// When a mesh's indices or lengths do not fit together ([`Mesh::check`]). Vertices that are not finite only cost their
+    /// triangles, which the rasteriser skips and counts.
     pub fn all(scene: &'a Scene, view: &View) -> Self {
         Self::of(scene, view, |_| true)
     }
@@ -34,6 +42,11 @@ impl<'a> Soup<'a> {
         let mut pieces = Vec::new();
         for (id, object) in scene.objects.iter().enumerate().filter(|(_, object)| keep(object)) {
             let mesh = object.shape.mesh_for(view);
+            if let Err(fault) = mesh.check()
+                && !matches!(fault, MeshError::NotFinite { .. })
+            {
+                panic!("object {id}, {:?}: {fault}", object.name);
+            }
             let count = mesh.triangles.len() as u32;
             pieces.push(Piece { object: id as u32, sheet: !object.solid, first, mesh });
             first += count;

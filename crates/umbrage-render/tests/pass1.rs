@@ -132,6 +132,12 @@ fn a_baked_texel_is_the_receiver_s_own_plane_to_two_ulp() {
     }
 }
 
+/// What a map's middle texel holds, and how many triangles were before the near plane.
+fn at_the_middle<R: DepthRule>(view: &View, triangles: &[Triangle], rule: &R) -> (f32, u64) {
+    let baked = bake(view, triangles.iter().copied(), rule, Cull::None);
+    (baked.map.depth(IVec2::splat(16)), baked.stats.before_near)
+}
+
 #[test]
 fn c10_a_solid_before_the_near_plane_keeps_its_shadow_under_every_rule() {
     // A box wholly between the light and the near plane, and no receiver in pass 1 (T-1).
@@ -142,10 +148,6 @@ fn c10_a_solid_before_the_near_plane_keeps_its_shadow_under_every_rule() {
         .map(|t| Triangle { corners: t.map(|v| mesh.positions[v as usize]), object: 0, sheet: false })
         .collect();
     let view = View::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, 1.0, 50.0, UVec2::splat(33)).unwrap();
-    fn at_the_middle<R: DepthRule>(view: &View, triangles: &[Triangle], rule: &R) -> (f32, u64) {
-        let baked = bake(view, triangles.iter().copied(), rule, Cull::None);
-        (baked.map.depth(IVec2::splat(16)), baked.stats.before_near)
-    }
     let kept = (1.0, 12);
     assert_eq!(at_the_middle(&view, &triangles, &First), kept);
     assert_eq!(at_the_middle(&view, &triangles, &Second), kept);

@@ -1,13 +1,13 @@
 use crate::{Jittered, Key, Pattern, Taps, grid::Area};
 use fearless_simd::{Simd, f32x16, prelude::*};
-use glam::Vec2;
+use glam::{DVec2, Vec2};
 use umbrage_plane::Footprint;
 
 /// Inside the region's own boundary, by rejection: [`Jittered`] over the bounding box, without the taps that fall outside
 /// the quadrilateral (Reeves 1987, Fig. 3d; R87-11 d1).
 ///
 /// The number of taps varies with the quadrilateral's share of its box. When none falls inside, one tap is taken at the
-/// mean of the corners. Quadrilaterals that are not convex, cross themselves or have no area are sampled as
+/// centroid. Quadrilaterals that are not convex, cross themselves or have no area are sampled as
 /// their bounding box.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct InsideQuadReject(
@@ -47,8 +47,8 @@ impl Pattern for InsideQuadReject {
                 return;
             } else {
                 any = true;
-                let mean = region.corners.into_iter().sum::<Vec2>() * 0.25;
-                area.taps(simd, key, (next, 1), (f32x16::splat(simd, mean.x), f32x16::splat(simd, mean.y)))
+                let middle = centroid(region.corners);
+                area.taps(simd, key, (next, 1), (f32x16::splat(simd, middle.x), f32x16::splat(simd, middle.y)))
             };
             each(&taps);
         }
@@ -112,6 +112,15 @@ impl Warp {
         let [constant, along_s, along_t] = self.jacobian;
         (s * along_s + t * along_t + constant).max(f32x16::splat(simd, 0.0))
     }
+}
+
+/// The centre of a convex quadrilateral's area: of the two triangles at its diagonal, by their areas.
+#[inline(always)]
+fn centroid(corners: [Vec2; 4]) -> Vec2 {
+    // The areas of slivers are small differences.
+    let [a, b, c, d] = corners.map(DVec2::from);
+    let (first, second) = ((b - a).perp_dot(c - a), (c - a).perp_dot(d - a));
+    ((a + c + (b * first + d * second) / (first + second)) * (1.0 / 3.0)).as_vec2()
 }
 
 /// The sign of a convex quadrilateral's area; `None` when it is not convex, crosses itself or has no area.

@@ -361,11 +361,12 @@ fn fig_3d_taps_stay_inside_the_quadrilateral_of_v42() {
 
 #[test]
 fn inside_patterns_take_the_middle_of_a_sliver() {
-    let corners = [Vec2::new(0.0, 0.0), Vec2::new(40.0, 40.0), Vec2::new(40.001, 40.0), Vec2::new(0.001, 0.0)];
+    let thin = 1.0 / 1024.0;
+    let corners = [Vec2::ZERO, Vec2::splat(40.0), Vec2::new(40.0 + thin, 40.0), Vec2::new(thin, 0.0)];
     let all =
         taps(&InsideQuadReject(Jittered { num_samples: 4, ..Jittered::default() }), &Footprint::around(corners), KEY);
     assert_eq!(all.len(), 1);
-    assert!((all[0].at - Vec2::new(20.0005, 20.0)).length() < 1e-4);
+    assert!((all[0].at - Vec2::new(20.0 + 0.5 * thin, 20.0)).length() < 1e-5);
 }
 
 #[test]
@@ -388,4 +389,16 @@ fn the_cost_of_a_region_does_not_grow_with_its_size() {
         let half = 2f32.powi(exponent);
         assert!(taps(&Jittered::default(), &boxed(0.0, 0.0, half, half), KEY).len() <= 22);
     }
+}
+
+#[test]
+fn r87_11_d_the_middle_is_the_centroid_of_the_area() {
+    // So slender that no sample of the box falls inside, and three times as wide at one end.
+    let thin = 1.0 / 1024.0;
+    let corners = [Vec2::ZERO, Vec2::splat(36.0), Vec2::new(36.0 + thin, 36.0), Vec2::new(3.0 * thin, 0.0)];
+    let pattern = InsideQuadReject(Jittered { num_samples: 4, ..Jittered::default() });
+    let all = taps(&pattern, &Footprint::around(corners), KEY);
+    assert_eq!(all.len(), 1);
+    // A trapezium's centroid stands at (a + 2b)/(3(a + b)) of its height from side a: 5/12 of 36 from the wide end.
+    assert!((all[0].at.y - 15.0).abs() < 1e-4, "{}", all[0].at);
 }

@@ -51,7 +51,9 @@ fn v01_figure_2_ordinary_against_percentage_closer_r87_9_r87_10() {
 }
 
 /// Half-extents, NumSamples, MinSamples; counts as corrected; counts as printed and whether a guard had to answer.
-const COUNTS: [(f32, f32, u32, u32, [u32; 2], [u32; 3]); 28] = [
+type Row = (f32, f32, u32, u32, [u32; 2], [u32; 3]);
+
+const COUNTS: [Row; 28] = [
     (0.0, 0.0, 16, 1, [1, 1], [1, 1, 0]),
     (0.4, 0.4, 16, 1, [1, 1], [1, 1, 0]),
     (0.75, 0.75, 16, 1, [2, 2], [2, 2, 0]),

@@ -58,7 +58,7 @@ const RULES: &[Rule] = &[
     },
     Rule {
         package: "umbrage-io",
-        arrows: &["umbrage-depth", "umbrage-scene"],
+        arrows: &["umbrage-depth"],
         outside: &["exr", "glam", "image", "thiserror"],
         tests: PROPERTIES,
     },

@@ -191,3 +191,47 @@ proptest! {
         prop_assert!(seen > 0 || radius.len() > 1 || rings < 4 || around < 5 || side < 12);
     }
 }
+
+/// A fan around a point of the map whose rim lies far outside, past the guard band: every texel is covered exactly once although every
+/// triangle is cut.
+#[test]
+fn fans_out_to_two_to_the_24_cover_every_texel_once() {
+    let size = UVec2::new(48, 33);
+    let mut cut = 0;
+    for case in 0..2_500u32 {
+        let key =
+            |n: u32| f64::from(umbrage_plane::mix32(umbrage_plane::mix32(case).wrapping_add(n))) / 4_294_967_296.0;
+        let sampling = if case % 2 == 0 { Sampling::Centre } else { Sampling::Jittered { seed: case } };
+        let view = texel_view(size, sampling);
+        // Hubs on a quarter grid, so that they meet samples and share rows with them.
+        let hub = Vec3::new(
+            ((key(0) - 0.5) * 160.0).round() as f32 * 0.25,
+            ((key(1) - 0.5) * 120.0).round() as f32 * 0.25,
+            -7.0,
+        );
+        let count = 3 + case % 5;
+        let start = key(2);
+        let rim: Vec<Vec3> = (0..count)
+            .map(|i| {
+                // Spread evenly enough that no two neighbours are half a turn apart.
+                let turn = (start + (f64::from(i) + 0.3 * key(3 + i)) / f64::from(count)) * std::f64::consts::TAU;
+                let far = 2f64.powf(10.0 + 14.0 * key(20 + i));
+                Vec3::new((turn.cos() * far) as f32, (turn.sin() * far) as f32, -7.0)
+            })
+            .collect();
+        // A rim point may lie so near that its edges cross the map: go out until none does.
+        let rim: Vec<Vec3> = rim
+            .iter()
+            .map(|at| Vec3::new(at.x.clamp(-16_777_216.0, 16_777_216.0), at.y.clamp(-16_777_216.0, 16_777_216.0), -7.0))
+            .collect();
+        let fan = (0..count as usize).map(|i| solid([hub, rim[i], rim[(i + 1) % count as usize]]));
+        let made = bins(&view, fan);
+        cut += made.stats().clipped;
+        let found = fragments(&made);
+        for texel in TexelRect::of_size(size).texels() {
+            let covering = found.get(&(texel.y, texel.x)).map_or(0, Vec::len);
+            assert_eq!(covering, 1, "case {case}, {texel}");
+        }
+    }
+    assert!(cut > 4_000, "{cut} triangles were cut");
+}

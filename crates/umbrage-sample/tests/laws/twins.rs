@@ -127,7 +127,10 @@ impl Twin for InsideQuadReject {
             return inside;
         }
         let [a, b, c, d] = region.corners;
-        vec![tap(region, key, last.next_multiple_of(16), (a + b + c + d) * 0.25)]
+        let [a, b, c, d] = [a, b, c, d].map(glam::DVec2::from);
+        let (first, second) = ((b - a).perp_dot(c - a), (c - a).perp_dot(d - a));
+        let middle = (a + c + (b * first + d * second) / (first + second)) * (1.0 / 3.0);
+        vec![tap(region, key, last.next_multiple_of(16), middle.as_vec2())]
     }
 }
 

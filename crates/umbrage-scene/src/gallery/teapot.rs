@@ -13,7 +13,8 @@ use umbrage_plane::View;
 /// Never: the views are constants.
 pub fn teapot() -> Scene {
     const SCALE: f32 = 10.0;
-    // The published table has z up. Turned by the angle of a 3-4-5 triangle, the handle comes toward the camera and its shadow
+    // The published table has z up. Turned by the angle of a 3-4-5 triangle, the handle comes toward the camera and its shadow falls
+    // on the body's lit side.
     let placed = |at: Vec3| Vec3::new(0.8 * at.x - 0.6 * at.y, at.z, -0.6 * at.x - 0.8 * at.y) * SCALE;
     let patches = utah_teapot().iter().map(|patch| patch.mapped(placed)).collect();
     let slab = Mesh::cuboid(Vec3::new(-160.0, -SLAB_THICKNESS, -160.0), Vec3::new(160.0, 0.0, 160.0));
