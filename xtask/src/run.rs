@@ -174,7 +174,7 @@ mod tests {
         Ok(Made {
             panels: vec![panel("the result").with("bias", 1).against("truth"), panel("truth").role(Role::Truth)],
             plots: vec![("curve".into(), "<svg></svg>".into())],
-            measures: vec![Measure::at_most("m", 1.0, "px", 2.0)],
+            measures: vec![Measure::at_most("m", 0.1 + 0.2, "px", 0.919_999_999_999_999_9)],
             ..Made::default()
         })
     }
@@ -234,5 +234,40 @@ mod tests {
         assert_eq!(failure, "T-1: panel result is compared with truth, which the figure does not have");
         assert!(!out.join("T-1").exists() && !out.join("report.json").exists());
         std::fs::remove_dir_all(&out).unwrap();
+    }
+
+    /// Real figures under every storage and several numbers of threads: the same bytes of everything that is written.
+    #[test]
+    fn c9_x8_threads_and_storages_change_no_byte() {
+        let chosen = ["W78-F4", "R87-F2", "R87-F6", "U-acne"];
+        let figures: Vec<&Figure> =
+            crate::figures::FIGURES.iter().copied().filter(|figure| chosen.contains(&figure.id)).collect();
+        let bytes = |storage, threads| {
+            let out = folder(&format!("{storage:?}-{threads}"));
+            let context = Context { quick: true, seed: 0, storage };
+            Run { figures: figures.clone(), context, threads: Some(threads), out: out.clone() }.make().unwrap();
+            let mut files = vec![("report.json".to_string(), std::fs::read(out.join("report.json")).unwrap())];
+            for id in chosen {
+                for entry in std::fs::read_dir(out.join(id)).unwrap() {
+                    let path = entry.unwrap().path();
+                    let name = path.file_name().unwrap().to_string_lossy().into_owned();
+                    // The record names the storage it was made with, the timings tell times.
+                    if name != "figure.json" && name != "timings.json" {
+                        files.push((format!("{id}/{name}"), std::fs::read(&path).unwrap()));
+                    }
+                }
+            }
+            files.sort();
+            std::fs::remove_dir_all(&out).unwrap();
+            files
+        };
+        let expected = bytes(Storage::Raw, 1);
+        assert!(expected.len() > 15);
+        for (storage, threads) in [(Storage::Bbox, 2), (Storage::Tiled, 4)] {
+            let found = bytes(storage, threads);
+            let differing: Vec<&str> =
+                found.iter().zip(&expected).filter(|(a, b)| a != b).map(|(a, _)| a.0.as_str()).collect();
+            assert!(differing.is_empty() && found.len() == expected.len(), "{storage:?}: {differing:?}");
+        }
     }
 }

@@ -5,11 +5,14 @@ use glam::{DVec2, DVec3, Vec3};
 use std::collections::BTreeMap;
 use umbrage_plane::{Projection, View};
 
-/// Most pieces along one side of a patch. Beyond it pieces grow larger than a texel.
-pub const MOST_PIECES: u32 = 256;
+/// Most pieces along one side of a patch. Beyond it, on patches more than a thousand texels long, pieces grow larger than a texel.
+pub const MOST_PIECES: u32 = 1024;
+/// Pieces along a side of a patch that is seen and reaches behind the eye, where no size can be told.
+const BEHIND_PIECES: u32 = 256;
 
 /// Cuts Bézier patches into pieces whose sides are no longer than a texel of `view` (Williams 1978; W78-23), at most
-/// [`MOST_PIECES`] along a side of a patch; patches that reach behind a perspective view's eye get that many.
+/// [`MOST_PIECES`] along a side of a patch. Patches that reach behind a perspective view's eye get 256; those wholly outside the
+/// view are not cut for their own sake.
 ///
 /// A piece is a four-sided cell of the patch's u, v grid, drawn as two triangles; cells at a pole are one. Sides that
 /// face each other across a patch and borders that two patches share are cut alike, and points on a border depend on
@@ -75,11 +78,37 @@ fn canonical(border: [Vec3; 4]) -> ([Vec3; 4], bool) {
 
 /// How many pieces keep every curve of constant v within a texel a piece.
 fn along_u(patch: &Patch, view: &View) -> u32 {
+    if is_unseen(patch, view) {
+        return 1;
+    }
     let legs = patch.control.iter().flat_map(|row| row.windows(2));
     let longest = legs.fold(0f64, |most, leg| most.max((leg[1] - leg[0]).as_dvec3().length()));
     // A cubic's speed is at most three times its longest leg.
     let pieces = (3.0 * longest * texels_per_world(patch, view)).ceil();
-    if pieces < f64::from(MOST_PIECES) { (pieces as u32).max(1) } else { MOST_PIECES }
+    if pieces.is_infinite() {
+        BEHIND_PIECES
+    } else if pieces < f64::from(MOST_PIECES) {
+        (pieces as u32).max(1)
+    } else {
+        MOST_PIECES
+    }
+}
+
+/// Whether all control points, and so the whole patch, lie beyond one side of the view or behind its eye.
+fn is_unseen(patch: &Patch, view: &View) -> bool {
+    let eyes = patch.control.iter().flatten().map(|at| view.world_to_eye().transform_point3(at.as_dvec3()));
+    // Distances beyond each side, in a scale of its own; for a perspective view only their signs mean anything.
+    let beyond = eyes.map(|eye| match view.projection() {
+        Projection::Orthographic { half } => {
+            [eye.x - half.x, -eye.x - half.x, eye.y - half.y, -eye.y - half.y, f64::NEG_INFINITY]
+        }
+        Projection::Perspective { k } => {
+            let at = k * eye.truncate();
+            [at.x + eye.z, eye.z - at.x, at.y + eye.z, eye.z - at.y, eye.z]
+        }
+    });
+    let nearest = beyond.fold([f64::INFINITY; 5], |all, one| std::array::from_fn(|side| all[side].min(one[side])));
+    nearest.iter().any(|distance| *distance > 0.0)
 }
 
 /// The longest image of a world unit at the patch, in texels; +∞ when it reaches behind the eye.

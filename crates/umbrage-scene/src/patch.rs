@@ -9,8 +9,8 @@ pub struct Patch {
     pub control: [[Vec3; 4]; 4],
 }
 
-/// What 16 control points mean: the matrix M of S(u, v) = U·M·G·Mᵀ·V, with U = (u³, u², u, 1) (W78-23). G[i][j] is `control[j][i]`:
-/// its rows run along u, those of `control` along v.
+/// What 16 control points mean: the matrix M of S(u, v) = U·M·G·Mᵀ·V, with U = (u³, u², u, 1) (W78-23). The rows of G run along u,
+/// those of `control` along v: `G[i][j]` is `control[j][i]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Basis {
     /// Bézier: the corners are on the surface.

@@ -1,6 +1,7 @@
 //! The catalogue: one entry a row, in the order of the gallery.
 
 mod curves;
+mod faults;
 mod reeves_idea;
 mod reeves_listing;
 mod reeves_parameters;
@@ -36,4 +37,5 @@ pub const FIGURES: &[&Figure] = &[
     &reeves_parameters::T2,
     &curves::ACNE,
     &curves::NOISE,
+    &faults::FAULTS,
 ];

@@ -385,6 +385,12 @@ fn pass1(cx: &Context) -> anyhow::Result<Made> {
         let noise = metrics::rms(&limit.shadow[0], &truth.shadow[0], &edge);
         let contour = metrics::contour_deviation(shadow_grid(&limit), shadow_grid(&truth), 6.0);
         errors.push(value(contour.map(|c| c.rms)));
+        let soft = penumbra(&limit);
+        made.measures.push(Measure::info(
+            &format!("{caption}: noise of 16 samples in soft edges (M6)"),
+            value(metrics::rms(&picture.shadow[0], &limit.shadow[0], &soft)),
+            "rms share",
+        ));
         made.measures.push(Measure::info(
             &format!("{caption}: edge error at 1,024 samples"),
             value(noise),

@@ -116,9 +116,43 @@ fn w78_23_no_piece_larger_than_a_texel() {
 fn w78_23_pieces_are_capped_behind_the_eye_and_for_huge_maps() {
     let inside = View::perspective(DVec3::new(1.5, 1.5, 0.3), DVec3::ZERO, DVec3::Y, 1.0, 0.1, 10.0, UVec2::splat(64))
         .expect("a valid view");
-    for view in [inside, from_above(32_768)] {
-        assert_eq!(dice(&[bump()], &view).triangles.len(), 2 * (MOST_PIECES * MOST_PIECES) as usize);
+    for (view, side) in [(inside, 256), (from_above(32_768), MOST_PIECES)] {
+        assert_eq!(dice(&[bump()], &view).triangles.len(), 2 * (side * side) as usize);
     }
+}
+
+#[test]
+fn w78_23_what_a_view_does_not_see_is_hardly_cut_and_what_is_large_is_cut_to_texels() {
+    let away = View::perspective(
+        DVec3::new(1.5, 1.5, 9.0),
+        DVec3::new(1.5, 1.5, 99.0),
+        DVec3::Y,
+        1.0,
+        0.1,
+        10.0,
+        UVec2::splat(64),
+    );
+    assert_eq!(dice(&[bump()], &away.expect("a valid view")).triangles.len(), 2);
+    let beside = View::orthographic(
+        DVec3::new(20.0, 0.0, 9.0),
+        DVec3::new(20.0, 0.0, 0.0),
+        DVec3::Y,
+        2.0,
+        0.1,
+        10.0,
+        UVec2::splat(64),
+    );
+    assert_eq!(dice(&[bump()], &beside.expect("a valid view")).triangles.len(), 2);
+    // Some 600 texels across: every piece's sides are within a texel.
+    let view = from_above(700);
+    let mesh = dice(&[bump()], &view);
+    assert!(mesh.triangles.len() > 2 * 300 * 300);
+    let texel = |at: Vec3| view.eye_to_texel(view.world_to_eye().transform_point3(at.as_dvec3()));
+    let longest = (0..mesh.triangles.len()).map(|triangle| {
+        let [a, b, _] = mesh.corners(triangle);
+        texel(a).distance(texel(b))
+    });
+    assert!(longest.fold(0.0, f64::max) < 1.0 + std::f64::consts::SQRT_2);
 }
 
 #[test]
