@@ -50,6 +50,7 @@ pub fn reuse(out: &Path, id: &str, key: &str) -> Option<(FigureRecord, Timings)>
 /// Writes a figure's folder: into `.<id>.part` first, then renamed over `<id>`.
 pub fn write(out: &Path, figure: &Figure, made: &Made, key: &str, timings: &Timings) -> anyhow::Result<FigureRecord> {
     check_against(made)?;
+    check_names(made)?;
     let part = out.join(format!(".{}.part", figure.id));
     let place = out.join(figure.id);
     remove(&part)?;
@@ -96,6 +97,16 @@ fn file_name(name: &str, extension: &str) -> anyhow::Result<String> {
     let stem = file_stem(name);
     ensure!(!stem.is_empty(), "{name:?} leaves nothing to name a file by");
     Ok(format!("{stem}.{extension}"))
+}
+
+/// Measures are told apart by their names.
+fn check_names(made: &Made) -> anyhow::Result<()> {
+    let mut names: Vec<&str> = made.measures.iter().map(|measure| measure.name.as_str()).collect();
+    names.sort_unstable();
+    match names.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => bail!("two measures are called {:?}", pair[0]),
+        None => Ok(()),
+    }
 }
 
 /// A wipe needs a partner of the same shape.

@@ -26,8 +26,8 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
     write_atomic(path, |file| file.write_all(bytes))
 }
 
-/// A regular file's bytes, `most_bytes` at most. Pipes and devices, which have no length to trust, are refused.
-pub(crate) fn read_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, IoError> {
+/// A regular file and its length. Pipes and devices, which have no length to trust, are refused.
+pub(crate) fn open_regular(path: &Path) -> Result<(File, u64), IoError> {
     let regular = |facts: &Metadata| {
         let no = || system(path, "read")(io::Error::other("not a regular file"));
         if facts.is_file() { Ok(()) } else { Err(no()) }
@@ -37,14 +37,20 @@ pub(crate) fn read_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, IoErro
     let file = File::open(path).map_err(system(path, "open"))?;
     let facts = file.metadata().map_err(system(path, "examine"))?;
     regular(&facts)?;
-    if facts.len() > most_bytes {
-        let problem = format!("{} bytes are more than {most_bytes}", facts.len());
+    Ok((file, facts.len()))
+}
+
+/// A regular file's bytes, `most_bytes` at most.
+pub(crate) fn read_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, IoError> {
+    let (file, file_bytes) = open_regular(path)?;
+    if file_bytes > most_bytes {
+        let problem = format!("{file_bytes} bytes are more than {most_bytes}");
         return Err(system(path, "read")(io::Error::other(problem)));
     }
     let mut bytes = Vec::new();
-    let length = usize::try_from(facts.len()).unwrap_or(usize::MAX);
+    let length = usize::try_from(file_bytes).unwrap_or(usize::MAX);
     bytes.try_reserve_exact(length).map_err(|full| system(path, "hold")(io::Error::other(full)))?;
-    file.take(facts.len()).read_to_end(&mut bytes).map_err(system(path, "read"))?;
+    file.take(file_bytes).read_to_end(&mut bytes).map_err(system(path, "read"))?;
     Ok(bytes)
 }
 

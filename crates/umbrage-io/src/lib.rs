@@ -2,6 +2,7 @@
 //!
 //! * [`write_shadow_map`] and [`read_shadow_map`]: a depth map with its view, bit for bit (R87-4), in a file that other
 //!   tools read: tiled, channel `Z`, `worldToCamera`, `worldToNDC`, `near`, `far`, `textureformat = "Shadow"`.
+//! * [`Paged`]: the same file with only the tiles looked at last in memory (R87-20).
 //! * [`write_png`], [`write_png_grey`], [`write_exr`]: pictures from linear light; [`read_png`] for comparing.
 //! * [`depth_view`] and [`replicate`]: a map as a grey picture, a zoom without invention.
 //! * [`write_atomic`]: the one path on which all of these write. A killed run leaves no torn file.
@@ -22,12 +23,14 @@
 mod depth_view;
 mod error;
 mod file;
+mod paged;
 mod picture;
 mod shadow_map;
 
 pub use depth_view::depth_view;
 pub use error::{Fault, IoError};
 pub use file::{write_atomic, write_bytes};
+pub use paged::{Paged, PagedHandle};
 pub use picture::{
     Codes, decode_png, encode_exr, encode_png, encode_png_grey, linear_to_srgb8, read_png, replicate, write_exr,
     write_png, write_png_grey,

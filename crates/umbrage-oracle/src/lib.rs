@@ -20,12 +20,14 @@
 //! Conventions are those of `umbrage-plane`: 1 is dark, rows from the top, texel and pixel centres at +½. Nothing here
 //! draws or opens a file.
 
+mod diagnose;
 mod faults;
 mod geometry;
 pub mod metrics;
 pub mod predict;
 mod truth;
 
+pub use diagnose::{Diagnostic, Plan, diagnose};
 pub use faults::{Contact, Evidence, Fault, Faults, faults, gap_on_surface, heat, penumbra_width};
 pub use geometry::{Body, Face, Geometry, Hit};
 pub use truth::{AreaLight, AreaRegion, RayCast, Truth};

@@ -115,6 +115,12 @@ pub fn depth_step(view: &View, bits: u32, zeta: f64) -> f64 {
     share * (f - n) / ((1u64 << bits.min(63)) - 1) as f64
 }
 
+/// The quantisation step of integer depth at the farthest receiver, in world units, when it exceeds half the bias: the perspective is
+/// too severe for so few bits, and surfaces there shadow themselves (Williams 1978; W78-9). `None` when all is well.
+pub fn severe_perspective(view: &View, bits: u32, farthest_zeta: f64, bias_world: f64) -> Option<f64> {
+    Some(depth_step(view, bits, farthest_zeta)).filter(|step| *step > 0.5 * bias_world)
+}
+
 /// Which surface of a caster the map keeps, as far as contact gaps care (D-10).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stored {
@@ -159,6 +165,19 @@ mod tests {
 
     fn near(a: f64, b: f64) {
         assert!((a - b).abs() < 1e-6, "{a} is not {b}");
+    }
+
+    #[test]
+    fn v46b_d_17_w78_9_quantisation_steps_and_severe_perspective() {
+        let size = glam::UVec2::splat(512);
+        let (eye, ahead, up) = (glam::DVec3::ZERO, glam::DVec3::NEG_Z, glam::DVec3::Y);
+        let flat = View::orthographic(eye, ahead, up, 1.0, 0.0, 100.0, size).unwrap();
+        let lamp = View::perspective(eye, ahead, up, 1.0, 1.0, 100.0, size).unwrap();
+        near(depth_step(&flat, 16, 7.0), 0.001_525_90);
+        near(depth_step(&lamp, 16, 50.0), 0.037_766_08);
+        assert_eq!(severe_perspective(&lamp, 16, 50.0, 0.1), None);
+        near(severe_perspective(&lamp, 16, 50.0, 0.05).unwrap(), 0.037_766_08);
+        assert_eq!(severe_perspective(&lamp, 24, 50.0, 0.05), None);
     }
 
     #[test]

@@ -33,7 +33,8 @@ impl Affine {
         Self { c: key, dx: 0.0, dy: 0.0 }
     }
 
-    /// The key at a texel position, unrounded. The one formula by which every key in Umbrage is made.
+    /// The key at a texel position, unrounded. The one formula by which every key in Umbrage is made; `dx` and `dy` are the forward
+    /// differences of the papers (spec D-4), which are not accumulated here, so that no place depends on the way to it.
     #[inline(always)]
     pub fn at(&self, texel: DVec2) -> f64 {
         (self.c + self.dy * texel.y) + self.dx * texel.x

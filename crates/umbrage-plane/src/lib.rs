@@ -26,7 +26,9 @@
 //! This crate knows no map, no sample and no shadow.
 
 mod affine;
+mod around;
 mod footprint;
+mod planar;
 mod policy;
 mod receiver;
 mod rect;
@@ -35,7 +37,9 @@ mod simd;
 mod view;
 
 pub use affine::{Affine, Decode, DepthPlane, DepthRange, Facet, Facing, Kind};
+pub use around::{Sectors, cube_face, cube_views, sector_views};
 pub use footprint::Footprint;
+pub use planar::planar_shadow;
 pub use policy::{Rules, Verdict, Where};
 pub use receiver::{Bias, Receiver, SurfacePoint};
 pub use rect::TexelRect;

@@ -58,6 +58,14 @@ impl Rules {
         near: Verdict::Compare,
         far: Verdict::Compare,
     };
+    /// One of several views around a light: what lies outside is compared, because a neighbour answers there (R87-17).
+    pub const AROUND: Self = Self {
+        behind: Verdict::Lit,
+        outside: Verdict::Compare,
+        beyond_cone: Verdict::Compare,
+        near: Verdict::Compare,
+        far: Verdict::Compare,
+    };
     /// Williams' strict volume: everything outside the light's viewing volume is lit (Williams 1978).
     pub const VOLUME: Self = Self {
         behind: Verdict::Lit,

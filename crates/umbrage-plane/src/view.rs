@@ -243,6 +243,11 @@ impl View {
         if self.is_perspective() { self.eye_to_world.w_axis } else { self.eye_to_world.z_axis.normalize() }
     }
 
+    /// Unit direction of view, in the world.
+    pub fn ahead(&self) -> DVec3 {
+        -self.eye_to_world.z_axis.truncate()
+    }
+
     /// Unit vector from a world point toward the eye.
     pub fn toward_eye(&self, world: DVec3) -> DVec3 {
         let light = self.light();

@@ -2,7 +2,7 @@
 //! six places of C-10. World and eye space are right-handed, rows go down (C-1, C-3).
 
 use glam::{DMat4, DVec2, DVec3, DVec4, IVec2, UVec2, Vec2, Vec3};
-use umbrage_plane::{Bias, Footprint, Kind, Rules, SurfacePoint, TexelRect, Verdict, View, Where};
+use umbrage_plane::{Bias, Footprint, Kind, Rules, SurfacePoint, TexelRect, Verdict, View, Where, planar_shadow};
 
 const P: Vec3 = Vec3::new(2.0, 1.0, -3.0);
 const N: DVec3 = DVec3::new(0.2, 1.0, 0.3);
@@ -317,4 +317,20 @@ fn views_refuse_what_they_cannot_mean() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(view.with_cone(Some(bad)).is_err(), "{bad}");
     }
+}
+
+#[test]
+fn v45_v46_w78_24_planar_projection() {
+    let floor = DVec4::new(0.0, 1.0, 0.0, 0.0);
+    let onto = |light: DVec4, point: DVec3| {
+        let flat = planar_shadow(floor, light) * point.extend(1.0);
+        flat.truncate() / flat.w
+    };
+    assert!(
+        onto(DVec4::new(0.0, 10.0, 0.0, 1.0), DVec3::new(1.0, 2.0, 3.0))
+            .abs_diff_eq(DVec3::new(1.25, 0.0, 3.75), 1e-12)
+    );
+    assert!(
+        onto(DVec4::new(1.0, 2.0, 0.0, 0.0), DVec3::new(1.0, 2.0, 3.0)).abs_diff_eq(DVec3::new(0.0, 0.0, 3.0), 1e-12)
+    );
 }

@@ -21,14 +21,18 @@
 //! ```
 
 mod camera;
+mod lights;
 mod pass1;
 mod picture;
+mod planar;
 pub mod post;
 mod recipe;
 mod shade;
 mod soup;
 
+pub use lights::{bind_lights, light_maps};
 pub use pass1::{Baked, advised_map_sizes, bake};
 pub use picture::{Frame, NOTHING, Picture, picture};
+pub use planar::{Ground, Planar};
 pub use recipe::{Recipe, RecipeError, Storage, bind};
 pub use soup::Soup;

@@ -55,6 +55,11 @@ pub struct RecipeError {
 }
 
 impl RecipeError {
+    /// The same, saying whose recipe it is.
+    pub(crate) fn of_light(self, name: &str) -> Self {
+        Self { field: format!("light {name:?}, {}", self.field), ..self }
+    }
+
     fn value(field: &str, value: &str, expected: &'static str) -> Self {
         Self { field: field.into(), value: value.into(), expected }
     }

@@ -8,13 +8,13 @@ pub(crate) fn shade(scene: &Scene, region: &Region, toward_eye: Vec3, transmitta
     let material = &scene.objects[region.point.object as usize].material;
     let mut colour = scene.ambient * material.diffuse;
     for (light, arrives) in scene.lights.iter().zip(transmittance) {
-        colour += reflect(material, light, region, toward_eye) * *arrives;
+        colour += reflect(material, light, region, toward_eye, *arrives);
     }
     colour
 }
 
-fn reflect(material: &Material, light: &Light, region: &Region, toward_eye: Vec3) -> Vec3 {
-    let (toward_light, incident) = light.incident(region.point.position.as_dvec3());
+fn reflect(material: &Material, light: &Light, region: &Region, toward_eye: Vec3, passes: Vec3) -> Vec3 {
+    let (toward_light, incident) = light.arriving(region.point.position.as_dvec3(), passes);
     let cosine = region.shading_normal.dot(toward_light);
     if cosine <= 0.0 {
         return Vec3::ZERO;

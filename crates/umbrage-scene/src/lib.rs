@@ -15,6 +15,7 @@
 //! ```
 
 mod dice;
+mod framing;
 pub mod gallery;
 mod light;
 mod mesh;
@@ -22,8 +23,11 @@ mod patch;
 mod scene;
 mod solids;
 mod teapot;
+pub mod tree;
+mod turned;
 
 pub use dice::{MOST_PIECES, dice};
+pub use framing::{Ball, FrameError, frame};
 pub use light::Light;
 pub use mesh::{Mesh, MeshError};
 pub use patch::{Basis, Patch};

@@ -1,3 +1,4 @@
+use crate::tree::{Emission, Sight, Tree};
 use glam::{DVec3, UVec2, Vec3};
 use umbrage_plane::{Rules, View, ViewError};
 
@@ -12,6 +13,8 @@ pub struct Light {
     pub colour: Vec3,
     /// Whether it has a shadow map.
     pub casts: bool,
+    /// What it sends where, beyond its colour (R87-18); `None` sends its colour everywhere it reaches, times what passes.
+    pub tree: Option<Tree>,
 }
 
 impl Light {
@@ -83,7 +86,7 @@ impl Light {
     }
 
     fn new(name: &str, view: &View) -> Self {
-        Self { name: name.into(), view: *view, colour: Vec3::ONE, casts: true }
+        Self { name: name.into(), view: *view, colour: Vec3::ONE, casts: true, tree: None }
     }
 
     /// The same light in another colour, linear RGB.
@@ -93,11 +96,46 @@ impl Light {
         self
     }
 
-    /// Unit direction from a world point to the light and the light arriving there unshadowed (no distance falloff;
+    /// The same light shining by a tree; it casts when the tree has a shadow node (R87-18).
+    #[must_use]
+    pub fn with_tree(mut self, tree: Tree) -> Self {
+        self.casts = tree.recipe().is_some();
+        self.tree = Some(tree);
+        self
+    }
+
+    /// As [`Light::incident`], where `transmittance` of the light passes whatever stands between (1 lit, 0 in shadow).
+    pub fn arriving(&self, world: DVec3, transmittance: Vec3) -> (Vec3, Vec3) {
+        let (toward, light) = self.reaching(world);
+        let light = match &self.tree {
+            None => light * transmittance,
+            Some(tree) if light != Vec3::ZERO => light * tree.light(&self.sight(world, transmittance)),
+            Some(_) => light,
+        };
+        (toward, light)
+    }
+
+    fn sight(&self, world: DVec3, transmittance: Vec3) -> Sight {
+        let ahead = self.view.ahead();
+        let from_light = world - self.view.light().truncate();
+        let (distance, cos_axis) = if self.view.is_perspective() {
+            (from_light.length(), ahead.dot(from_light.normalize_or_zero()))
+        } else {
+            (f64::INFINITY, 1.0)
+        };
+        Sight { distance: distance as f32, cos_axis: cos_axis as f32, transmittance }
+    }
+
+    /// Unit direction from a world point to the light and the light arriving there unshadowed (no distance falloff but the tree's;
     /// zero behind a spot and outside its cone, and at the light's own place, where there is no direction either).
     ///
     /// A light with a cone in its view is a spot.
     pub fn incident(&self, world: DVec3) -> (Vec3, Vec3) {
+        self.arriving(world, Vec3::ONE)
+    }
+
+    /// The direction, and the light's colour where it reaches.
+    fn reaching(&self, world: DVec3) -> (Vec3, Vec3) {
         let toward = self.view.toward_eye(world);
         let arrives = toward != DVec3::ZERO && self.reaches(world);
         (toward.as_vec3(), if arrives { self.colour } else { Vec3::ZERO })

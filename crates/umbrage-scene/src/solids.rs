@@ -163,7 +163,7 @@ impl Mesh {
         self.triangle([a, c, d], surface);
     }
 
-    fn triangle(&mut self, corners: [u32; 3], surface: u32) {
+    pub(crate) fn triangle(&mut self, corners: [u32; 3], surface: u32) {
         let [a, b, c] = corners.map(|corner| self.positions[corner as usize]);
         if a != b && b != c && c != a {
             self.triangles.push(corners);

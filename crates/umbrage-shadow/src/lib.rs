@@ -26,9 +26,11 @@
 //! Conventions: 1 is dark (`shadow`), equality is lit, a sample outside the map answers by the view's
 //! [`Rules`](umbrage_plane::Rules). This crate draws nothing and opens no file.
 
+mod around;
 pub mod as_printed;
 mod depth;
 mod filter;
+mod lat_long;
 mod ordinary;
 mod pcf;
 pub mod presets;
@@ -36,8 +38,10 @@ mod probe;
 mod shadow;
 pub mod williams;
 
+pub use around::{Around, AroundError, Evaluate};
 pub use depth::{Biased, OnPlane, ReceiverDepth, Spread};
 pub use filter::{Filter, filter};
+pub use lat_long::{LatLong, LatLongError};
 pub use ordinary::Ordinary;
 pub use pcf::Pcf;
 pub use probe::{Counters, Probe};

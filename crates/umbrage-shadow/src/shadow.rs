@@ -8,7 +8,7 @@ use umbrage_sample::Key;
 ///
 /// `key` names the picture's light; the implementor adds each point's region to it.
 pub trait Shadow: Sync {
-    /// The fraction in shadow of each region: 0 lit, 1 dark. `out` is as long as `at`.
+    /// The fraction in shadow of each region: 0 lit, 1 dark (spec C-6). `out` is as long as `at`.
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]);
 
     /// The fraction of one region.

@@ -29,7 +29,7 @@ fn near(got: DVec3, want: [f64; 3], tolerance: f64) {
 }
 
 #[test]
-fn v38_w78_3_one_matrix_takes_the_observer_s_screen_to_the_light_s() {
+fn v38_w78_3_d_6_one_matrix_takes_the_observer_s_screen_to_the_light_s() {
     let point = DVec3::new(2.0, 1.0, -3.0);
     let seen = transform(&camera().world_to_screen(), point).unwrap();
     near(seen, [0.255_544_631_6, 0.142_360_340_3, 0.935_586_483_9], 1e-9);

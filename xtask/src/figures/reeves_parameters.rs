@@ -346,7 +346,7 @@ fn float(cx: &Context) -> anyhow::Result<Made> {
         ],
         measures: vec![
             Measure::info("16-bit: false shadow on the plane, bias 0 (M2)", at_0, "share"),
-            Measure::info("float: the same", float_at_0, "share"),
+            Measure::info("float: the same at bias 0", float_at_0, "share"),
             Measure::at_most("relative change", (float_at_0 / at_0 - 1.0).abs(), "", 0.05),
             Measure::within(
                 "jaggedness of the edge, float over 16-bit",
@@ -356,7 +356,7 @@ fn float(cx: &Context) -> anyhow::Result<Made> {
                 1.05,
             ),
             Measure::at_least("16-bit: false shadow by the steps of z alone", stepped, "share", 0.1),
-            Measure::at_most("float: the same", smooth, "share", 1e-3),
+            Measure::at_most("float: false shadow by the steps of z alone", smooth, "share", 1e-3),
         ],
         ..Made::default()
     })

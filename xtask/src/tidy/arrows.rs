@@ -43,7 +43,12 @@ const RULES: &[Rule] = &[
         outside: &["fearless_simd", "glam", "thiserror"],
         tests: PROPERTIES,
     },
-    Rule { package: "umbrage-scene", arrows: &["umbrage-plane"], outside: &["glam", "thiserror"], tests: PROPERTIES },
+    Rule {
+        package: "umbrage-scene",
+        arrows: &["umbrage-plane"],
+        outside: &["glam", "serde", "thiserror"],
+        tests: &["proptest", "serde_json"],
+    },
     Rule {
         package: "umbrage-render",
         arrows: &["umbrage-scene", "umbrage-raster", "umbrage-shadow"],
@@ -59,7 +64,7 @@ const RULES: &[Rule] = &[
     Rule {
         package: "umbrage-io",
         arrows: &["umbrage-depth"],
-        outside: &["exr", "glam", "image", "thiserror"],
+        outside: &["exr", "fearless_simd", "glam", "image", "thiserror"],
         tests: PROPERTIES,
     },
     Rule { package: "umbrage-bench", arrows: EVERY, outside: &[], tests: &["criterion", "glam"] },

@@ -6,6 +6,7 @@
 //! `comments` the view in full precision and a digest of view and depths, by which damage is noticed. Files without the latter
 //! are read from the matrices; tools that change our files must drop `comments` and `software`.
 
+mod layout;
 mod matrices;
 mod read;
 mod text;
@@ -15,6 +16,9 @@ use crate::error::{Fault, IoError};
 use crate::file::{read_bytes, write_bytes};
 use std::path::Path;
 use umbrage_depth::{DepthMap, Raw};
+
+pub(crate) use layout::Layout;
+pub(crate) use read::Preface;
 
 /// Most texels that [`read_shadow_map`] takes: 16,384 × 16,384, which is 1 GiB.
 pub const DEFAULT_BUDGET: u64 = 1 << 28;

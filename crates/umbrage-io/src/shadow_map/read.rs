@@ -1,51 +1,80 @@
-use super::{matrices, text};
+use super::{Layout, matrices, text};
 use crate::error::Fault;
-use exr::block::UncompressedBlock;
-use exr::block::chunk::{Chunk, CompressedBlock, CompressedScanLineBlock, CompressedTileBlock, TileCoordinates};
-use exr::meta::attribute::LevelMode;
+use exr::meta::MetaData;
 use exr::meta::header::Header;
-use exr::meta::{BlockDescription, MetaData};
 use exr::prelude::{Compression, SampleType, Vec2};
 use glam::{IVec2, UVec2};
+use std::io::{BufRead, Read};
 use umbrage_plane::{TexelRect, View};
 
-/// Deflate makes no more than 1032 bytes of one; a block that claims more is not worth taking memory for.
-const MOST_BYTES_PER_BYTE: usize = 1100;
+/// Longer headers are not read.
+const MOST_HEADER_BYTES: u64 = 1 << 20;
+
+/// What a file holds before its blocks, checked.
+#[derive(Debug)]
+pub(crate) struct Preface {
+    pub(crate) meta: MetaData,
+    pub(crate) view: View,
+    /// Of view and depths; files of other makers have none.
+    digest: Option<u64>,
+    pub(crate) layout: Layout,
+    /// Where the file has each block; all different, all behind the table and inside the file.
+    pub(crate) offsets: Vec<u64>,
+}
+
+impl Preface {
+    /// From the start of a file of `length` bytes, of which nothing behind the offset table is asked for.
+    pub(crate) fn read(file: impl BufRead, length: u64, most_texels: u64, most_blocks: u64) -> Result<Self, Fault> {
+        let most = length.min(MOST_HEADER_BYTES);
+        let mut file = file.take(most);
+        let meta = MetaData::read_from_buffered(&mut file, true);
+        let position = most - file.limit();
+        let meta = meta.map_err(|error| match position {
+            MOST_HEADER_BYTES => Fault::new("header", "unreadable", format!("it passes {position} bytes")),
+            _ => Fault::new("header", "unreadable", error),
+        })?;
+        if meta.requirements.has_multiple_layers {
+            return Err(Fault::new("version", "flagged as of several parts", "a shadow map is a file of one part"));
+        }
+        let header = match meta.headers.as_slice() {
+            [header] => header,
+            parts => return Err(Fault::new("parts", parts.len(), "a shadow map has one")),
+        };
+        check_form(header)?;
+        let (size, window) = windows(header, most_texels)?;
+        let layout = Layout::new(header, window)?;
+        let blocks = layout.count();
+        if blocks as u64 > most_blocks {
+            return Err(Fault::new("offset table", blocks, format!("more than the allowed {most_blocks} blocks")));
+        }
+        file.set_limit(length - position);
+        let offsets = offsets(file, position, length, blocks)?;
+        let (view, digest) = view(header, size)?;
+        Ok(Self { meta, view, digest, layout, offsets })
+    }
+}
 
 pub(crate) fn decode(bytes: &[u8], most_texels: u64) -> Result<(View, Vec<f32>), Fault> {
-    let mut rest = bytes;
-    let meta =
-        MetaData::read_from_buffered(&mut rest, true).map_err(|error| Fault::new("header", "unreadable", error))?;
-    if meta.requirements.has_multiple_layers {
-        return Err(Fault::new("version", "flagged as of several parts", "a shadow map is a file of one part"));
-    }
-    let header = match meta.headers.as_slice() {
-        [header] => header,
-        parts => return Err(Fault::new("parts", parts.len(), "a shadow map has one")),
-    };
-    check_form(header)?;
-    let (size, window) = windows(header, most_texels)?;
-    let layout = Layout::new(header, window)?;
-    let offsets = offsets(rest, bytes.len(), layout.count())?;
-    let (view, digest) = view(header, size)?;
+    let file = Preface::read(bytes, bytes.len() as u64, most_texels, u64::MAX)?;
+    let size = file.view.size();
     let texels = size.x as usize * size.y as usize;
     let mut depths: Vec<f32> = Vec::new();
     depths.try_reserve_exact(texels).map_err(|full| Fault::new("displayWindow", texels, full))?;
     depths.resize(texels, f32::INFINITY);
-    for (index, offset) in offsets.into_iter().enumerate() {
-        let samples = layout.samples(&meta, bytes, index, offset)?;
-        let area = layout.area(index);
+    for (index, offset) in file.offsets.into_iter().enumerate() {
+        let samples = file.layout.samples(&file.meta, &bytes[offset as usize..], index, offset)?;
+        let area = file.layout.area(index);
         for (texel, sample) in area.texels().zip(samples.as_chunks::<4>().0) {
             depths[texel.y as usize * size.x as usize + texel.x as usize] = f32::from_ne_bytes(*sample);
         }
     }
-    let found = text::digest(&view, depths.iter().copied());
-    match digest {
+    let found = text::digest(&file.view, depths.iter().copied());
+    match file.digest {
         Some(written) if written != found => {
             let problem = format!("view and depths make {found:016x}: they are not what was written");
             Err(Fault::new("comments: digest", format!("{written:016x}"), problem))
         }
-        _ => Ok((view, depths)),
+        _ => Ok((file.view, depths)),
     }
 }
 
@@ -102,127 +131,25 @@ fn windows(header: &Header, most_texels: u64) -> Result<(UVec2, TexelRect), Faul
     Ok((size, window))
 }
 
-/// How the stored rectangle is cut into blocks.
-struct Layout {
-    /// Relative to the display window.
-    window: TexelRect,
-    /// Largest sides of a block.
-    block: IVec2,
-    columns: usize,
-    rows: usize,
-    tiled: bool,
-    /// First row of the data window as the file counts.
-    first_row: i32,
-}
-
-impl Layout {
-    fn new(header: &Header, window: TexelRect) -> Result<Self, Fault> {
-        let sides = window.size();
-        let (block, tiled) = match header.blocks {
-            BlockDescription::ScanLines => (Vec2(sides.x as usize, header.compression.scan_lines_per_block()), false),
-            BlockDescription::Tiles(tiles) if tiles.level_mode == LevelMode::Singular => (tiles.tile_size, true),
-            BlockDescription::Tiles(tiles) => {
-                return Err(Fault::new("tiles", format!("{:?}", tiles.level_mode), "a shadow map has one level"));
-            }
-        };
-        let side = |length: usize| u32::try_from(length).ok().filter(|side| (1..=32_768).contains(side));
-        let block = side(block.x()).zip(side(block.y())).map(UVec2::from).ok_or_else(|| {
-            Fault::new("tiles", format!("{} x {}", block.x(), block.y()), "not within 1..=32768 on each side")
-        })?;
-        let blocks = (sides + block - 1) / block;
-        Ok(Self {
-            window,
-            block: block.as_ivec2(),
-            columns: blocks.x as usize,
-            rows: blocks.y as usize,
-            tiled,
-            first_row: header.own_attributes.layer_position.y(),
-        })
+/// The offset table: every block after it, inside the file and in a place of its own. `file` starts with the table, which is at
+/// byte `position` of `length`.
+fn offsets(mut file: impl Read, position: u64, length: u64, count: usize) -> Result<Vec<u64>, Fault> {
+    let first = position + count as u64 * 8;
+    if first > length {
+        let problem = format!("{count} blocks need more");
+        return Err(Fault::new("offset table", format!("{} bytes left", length - position), problem));
     }
-
-    fn count(&self) -> usize {
-        self.columns * self.rows
-    }
-
-    /// A block's place in its grid.
-    fn cell(&self, index: usize) -> IVec2 {
-        IVec2::new((index % self.columns) as i32, (index / self.columns) as i32)
-    }
-
-    /// A block's texels.
-    fn area(&self, index: usize) -> TexelRect {
-        let min = self.window.min + self.cell(index) * self.block;
-        TexelRect::new(min, min + self.block).intersect(self.window)
-    }
-
-    /// A block's decoded bytes: four a texel.
-    fn samples(&self, meta: &MetaData, file: &[u8], index: usize, offset: usize) -> Result<Vec<u8>, Fault> {
-        let cell = self.cell(index);
-        let broken = |value: &dyn ToString, problem: &str| {
-            Fault::new(format!("block {}, {} at byte {offset}", cell.x, cell.y), value.to_string(), problem)
-        };
-        let mut words = Words { rest: &file[offset..] };
-        let mut word = |what: &str| words.next().ok_or_else(|| broken(&"cut off", what));
-        let (found, expected) = if self.tiled {
-            let found = [word("tile x")?, word("tile y")?, word("level x")?, word("level y")?];
-            (found, [cell.x, cell.y, 0, 0])
-        } else {
-            ([word("row")?, 0, 0, 0], [self.first_row + cell.y * self.block.y, 0, 0, 0])
-        };
-        if found != expected {
-            return Err(broken(&format!("{found:?}"), &format!("the block there should be {expected:?}")));
+    let mut offsets = Vec::new();
+    offsets.try_reserve_exact(count).map_err(|full| Fault::new("offset table", count, full))?;
+    for index in 0..count {
+        let mut entry = [0; 8];
+        file.read_exact(&mut entry).map_err(|error| Fault::new("offset table", "unreadable", error))?;
+        let offset = u64::from_le_bytes(entry);
+        if !(first..length).contains(&offset) {
+            let problem = format!("block {index} is not within bytes {first}..{length}");
+            return Err(Fault::new("offset table", offset, problem));
         }
-        let length = word("length")?;
-        let packed = usize::try_from(length).ok().and_then(|length| words.rest.get(..length));
-        let packed = packed.ok_or_else(|| broken(&length, "not a length within the file"))?;
-        let expected = self.area(index).area() * 4;
-        if packed.is_empty() || packed.len() > expected || packed.len().saturating_mul(MOST_BYTES_PER_BYTE) < expected {
-            return Err(broken(&packed.len(), &format!("no such number of bytes packs {expected}")));
-        }
-        let compressed_pixels_le = packed.to_vec();
-        let compressed_block = if self.tiled {
-            let coordinates =
-                TileCoordinates { tile_index: Vec2(cell.x as usize, cell.y as usize), level_index: Vec2(0, 0) };
-            CompressedBlock::Tile(CompressedTileBlock { coordinates, compressed_pixels_le })
-        } else {
-            CompressedBlock::ScanLine(CompressedScanLineBlock { y_coordinate: found[0], compressed_pixels_le })
-        };
-        let chunk = Chunk { layer_index: 0, compressed_block };
-        let samples = UncompressedBlock::decompress_chunk(chunk, meta, true);
-        let samples = samples.map_err(|error| broken(&"damaged", &error.to_string()))?.data;
-        if samples.len() != expected {
-            return Err(broken(&samples.len(), &format!("should unpack to {expected} bytes")));
-        }
-        Ok(samples)
-    }
-}
-
-/// Little-endian 32-bit numbers, one after the other.
-struct Words<'a> {
-    rest: &'a [u8],
-}
-
-impl Words<'_> {
-    fn next(&mut self) -> Option<i32> {
-        let (word, rest) = self.rest.split_first_chunk::<4>()?;
-        self.rest = rest;
-        Some(i32::from_le_bytes(*word))
-    }
-}
-
-/// The offset table: every block after it, inside the file and in a place of its own. `rest` starts with the table and ends the file.
-fn offsets(rest: &[u8], length: usize, count: usize) -> Result<Vec<usize>, Fault> {
-    let cut_off =
-        || Fault::new("offset table", format!("{} bytes left", rest.len()), format!("{count} blocks need more"));
-    let table_bytes = count.checked_mul(8).ok_or_else(cut_off)?;
-    let (table, blocks) = rest.split_at_checked(table_bytes).ok_or_else(cut_off)?;
-    let first = length - blocks.len();
-    let mut offsets = Vec::with_capacity(count);
-    for (index, entry) in table.as_chunks::<8>().0.iter().enumerate() {
-        let offset = u64::from_le_bytes(*entry);
-        let inside = usize::try_from(offset).ok().filter(|offset| (first..length).contains(offset));
-        let problem = || format!("block {index} is not within bytes {first}..{length}");
-        offsets.push(inside.ok_or_else(|| Fault::new("offset table", offset, problem()))?);
+        offsets.push(offset);
     }
     let mut sorted = offsets.clone();
     sorted.sort_unstable();

@@ -30,14 +30,14 @@ fn survives(bytes: &[u8]) -> Result<Raw, Fault> {
 }
 
 /// Where the bytes of an attribute's value begin.
-fn value(bytes: &[u8], attribute: &str, kind: &str) -> usize {
+pub(crate) fn value(bytes: &[u8], attribute: &str, kind: &str) -> usize {
     let name = format!("{attribute}\0{kind}\0");
     let at = bytes.windows(name.len()).position(|window| window == name.as_bytes()).expect("the attribute is there");
     at + name.len() + 4
 }
 
 /// Where the offset table begins: at the value that points just behind a table of `blocks` entries.
-fn table(bytes: &[u8], blocks: usize) -> usize {
+pub(crate) fn table(bytes: &[u8], blocks: usize) -> usize {
     (0..bytes.len() - 8)
         .find(|at| bytes[*at..*at + 8] == ((at + 8 * blocks) as u64).to_le_bytes())
         .expect("the first block follows the table")
@@ -49,7 +49,7 @@ fn patched(at: usize, with: &[u8]) -> Result<Raw, Fault> {
     survives(&bytes)
 }
 
-fn words(words: [i32; 4]) -> Vec<u8> {
+pub(crate) fn words(words: [i32; 4]) -> Vec<u8> {
     words.into_iter().flat_map(i32::to_le_bytes).collect()
 }
 

@@ -2,6 +2,8 @@
 
 mod files;
 mod hostile;
+mod paged;
+mod paged_faults;
 mod pictures;
 mod shadow_maps;
 

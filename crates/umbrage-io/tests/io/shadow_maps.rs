@@ -102,7 +102,7 @@ fn other_tools_find_what_the_convention_promises() {
 }
 
 /// As another tool would write it: scan lines, no text of ours, the data window off the origin like the display window.
-fn foreign(view: &View, blocks: exr::Blocks, compression: exr::Compression) -> Vec<u8> {
+pub(crate) fn foreign(view: &View, blocks: exr::Blocks, compression: exr::Compression) -> Vec<u8> {
     let ours = encode_shadow_map(&map(view)).expect("written");
     let meta = exr::MetaData::read_from_buffered(ours.as_slice(), true).expect("ours");
     let size = exr::Vec2(view.size().x as usize, view.size().y as usize);

@@ -1,5 +1,6 @@
 //! Tests of the oracle and its measures against answers that are known without it.
 mod bodies;
+mod diagnose;
 mod faults;
 mod metrics;
 mod rays;

@@ -74,7 +74,7 @@ fn w78_8_what_throws_the_shadows_is_framed_by_every_light() {
     scene.objects[2].shape = Shape::Mesh(umbrage_scene::Mesh { positions: moved, ..aside });
     assert_eq!(scene.casters_outside(&view), [2]);
     scene.objects[2].casts = false;
-    assert_eq!(scene.casters_outside(&view), []);
+    assert_eq!(scene.casters_outside(&view), Vec::<u32>::new());
 }
 
 /// Nothing visible is cut by the camera's or a light's near plane or lies past its far plane.

@@ -1,6 +1,8 @@
 //! Laws and known answers of `umbrage-scene`.
 
+mod framing;
 mod gallery;
 mod lights;
 mod meshes;
 mod patches;
+mod trees;

@@ -1,0 +1,152 @@
+use crate::error::Fault;
+use exr::block::UncompressedBlock;
+use exr::block::chunk::{Chunk, CompressedBlock, CompressedScanLineBlock, CompressedTileBlock, TileCoordinates};
+use exr::meta::attribute::LevelMode;
+use exr::meta::header::Header;
+use exr::meta::{BlockDescription, MetaData};
+use exr::prelude::Vec2;
+use glam::{IVec2, UVec2};
+use umbrage_plane::TexelRect;
+
+/// Deflate makes no more than 1032 bytes of one; a block that claims more is not worth taking memory for.
+const MOST_BYTES_PER_BYTE: usize = 1100;
+
+/// Bytes before a tile's packed depths: its coordinates, its level, its length.
+const TILE_HEAD: usize = 20;
+
+/// How the stored rectangle is cut into blocks.
+#[derive(Debug)]
+pub(crate) struct Layout {
+    /// Relative to the display window.
+    window: TexelRect,
+    /// Largest sides of a block.
+    block: IVec2,
+    columns: usize,
+    rows: usize,
+    tiled: bool,
+    /// First row of the data window as the file counts.
+    first_row: i32,
+}
+
+impl Layout {
+    pub(super) fn new(header: &Header, window: TexelRect) -> Result<Self, Fault> {
+        let sides = window.size();
+        let (block, tiled) = match header.blocks {
+            BlockDescription::ScanLines => (Vec2(sides.x as usize, header.compression.scan_lines_per_block()), false),
+            BlockDescription::Tiles(tiles) if tiles.level_mode == LevelMode::Singular => (tiles.tile_size, true),
+            BlockDescription::Tiles(tiles) => {
+                return Err(Fault::new("tiles", format!("{:?}", tiles.level_mode), "a shadow map has one level"));
+            }
+        };
+        let side = |length: usize| u32::try_from(length).ok().filter(|side| (1..=32_768).contains(side));
+        let block = side(block.x()).zip(side(block.y())).map(UVec2::from).ok_or_else(|| {
+            Fault::new("tiles", format!("{} x {}", block.x(), block.y()), "not within 1..=32768 on each side")
+        })?;
+        let blocks = (sides + block - 1) / block;
+        Ok(Self {
+            window,
+            block: block.as_ivec2(),
+            columns: blocks.x as usize,
+            rows: blocks.y as usize,
+            tiled,
+            first_row: header.own_attributes.layer_position.y(),
+        })
+    }
+
+    /// Number of blocks.
+    pub(crate) fn count(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// The stored rectangle, relative to the display window.
+    pub(crate) fn window(&self) -> TexelRect {
+        self.window
+    }
+
+    /// False when the blocks are scan lines.
+    pub(crate) fn is_tiled(&self) -> bool {
+        self.tiled
+    }
+
+    /// The block that holds a texel of the window.
+    pub(crate) fn index(&self, texel: IVec2) -> usize {
+        let cell = ((texel - self.window.min) / self.block).as_uvec2();
+        cell.y as usize * self.columns + cell.x as usize
+    }
+
+    /// A block's place in its grid.
+    fn cell(&self, index: usize) -> IVec2 {
+        IVec2::new((index % self.columns) as i32, (index / self.columns) as i32)
+    }
+
+    /// A block's texels.
+    pub(crate) fn area(&self, index: usize) -> TexelRect {
+        let min = self.window.min + self.cell(index) * self.block;
+        TexelRect::new(min, min + self.block).intersect(self.window)
+    }
+
+    /// More bytes than these of the file are never part of a tile.
+    pub(crate) fn most_bytes(&self, index: usize) -> usize {
+        TILE_HEAD + self.area(index).area() * 4
+    }
+
+    /// What a fault in a block is said of.
+    pub(crate) fn name(&self, index: usize, offset: u64) -> String {
+        let cell = self.cell(index);
+        format!("block {}, {} at byte {offset}", cell.x, cell.y)
+    }
+
+    /// A block's decoded bytes: four a texel. `block` holds the file from `offset` on, as far as the file goes or farther than
+    /// the block does.
+    pub(crate) fn samples(&self, meta: &MetaData, block: &[u8], index: usize, offset: u64) -> Result<Vec<u8>, Fault> {
+        let cell = self.cell(index);
+        let broken =
+            |value: &dyn ToString, problem: &str| Fault::new(self.name(index, offset), value.to_string(), problem);
+        let mut words = Words { rest: block };
+        let mut word = |what: &str| words.next().ok_or_else(|| broken(&"cut off", what));
+        let (found, expected) = if self.tiled {
+            let found = [word("tile x")?, word("tile y")?, word("level x")?, word("level y")?];
+            (found, [cell.x, cell.y, 0, 0])
+        } else {
+            ([word("row")?, 0, 0, 0], [self.first_row + cell.y * self.block.y, 0, 0, 0])
+        };
+        if found != expected {
+            return Err(broken(&format!("{found:?}"), &format!("the block there should be {expected:?}")));
+        }
+        let length = word("length")?;
+        let expected = self.area(index).area() * 4;
+        let packs =
+            |length: &usize| (1..=expected).contains(length) && length.saturating_mul(MOST_BYTES_PER_BYTE) >= expected;
+        let packed = usize::try_from(length).ok().filter(packs);
+        let packed = packed.ok_or_else(|| broken(&length, &format!("no such number of bytes packs {expected}")))?;
+        let packed = words.rest.get(..packed).ok_or_else(|| broken(&length, "not a length within the file"))?;
+        let compressed_pixels_le = packed.to_vec();
+        let compressed_block = if self.tiled {
+            let coordinates =
+                TileCoordinates { tile_index: Vec2(cell.x as usize, cell.y as usize), level_index: Vec2(0, 0) };
+            CompressedBlock::Tile(CompressedTileBlock { coordinates, compressed_pixels_le })
+        } else {
+            CompressedBlock::ScanLine(CompressedScanLineBlock { y_coordinate: found[0], compressed_pixels_le })
+        };
+        let chunk = Chunk { layer_index: 0, compressed_block };
+        let samples = UncompressedBlock::decompress_chunk(chunk, meta, true);
+        let samples = samples.map_err(|error| broken(&"damaged", &error.to_string()))?.data;
+        if samples.len() != expected {
+            return Err(broken(&samples.len(), &format!("should unpack to {expected} bytes")));
+        }
+        Ok(samples)
+    }
+}
+
+/// Little-endian 32-bit numbers, one after the other.
+struct Words<'a> {
+    rest: &'a [u8],
+}
+
+impl Words<'_> {
+    fn next(&mut self) -> Option<i32> {
+        let (word, rest) = self.rest.split_first_chunk::<4>()?;
+        self.rest = rest;
+        Some(i32::from_le_bytes(*word))
+    }
+}

@@ -1,0 +1,188 @@
+use crate::{Filter, Shadow};
+use fearless_simd::{Level, Simd, dispatch};
+use glam::{DVec3, IVec2};
+use umbrage_depth::DepthMap;
+use umbrage_plane::{DepthRange, Kind, SurfacePoint, TexelRect, Verdict, View, Where};
+use umbrage_sample::Key;
+
+/// Which of the views around a light a point is tested in (Williams 1978; W78-10).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Evaluate {
+    /// In its own: the one whose axis is nearest to the point's direction. Samples that fall outside are answered by the
+    /// neighbour, so that filters cross seams (R87-17).
+    #[default]
+    Own,
+    /// In every one that it falls into, as if each were a light of its own; the darkest answer counts. Samples outside a view are
+    /// answered by its rules.
+    Every,
+}
+
+/// Why views do not stand around one light.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AroundError {
+    /// No map at all.
+    #[error("a light in all directions needs at least one map")]
+    Empty,
+    /// A view that is not in perspective, stands elsewhere than the first, or stores another kind of depth.
+    #[error("map {index} of a light in all directions {problem}")]
+    View {
+        /// Which map, from 0.
+        index: usize,
+        /// What is wrong with its view.
+        problem: &'static str,
+    },
+}
+
+/// A light that shines in all directions, or in several: maps of one kind around one point (Reeves 1987, Williams 1978; R87-17,
+/// W78-10). A cube's six faces cover everything, sectors a belt; what no view sees is lit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Around<F, M> {
+    /// How the maps are asked.
+    pub filter: F,
+    /// Which map is asked.
+    pub evaluate: Evaluate,
+    maps: Vec<M>,
+}
+
+impl<F: Filter, M: DepthMap> Around<F, M> {
+    /// Over maps whose views stand at one place and store distance, axial ([`Kind::Axial`]) or Euclidean ([`Kind::Radial`]).
+    ///
+    /// # Errors
+    /// [`AroundError`].
+    pub fn new(filter: F, maps: Vec<M>) -> Result<Self, AroundError> {
+        let first = *maps.first().ok_or(AroundError::Empty)?.view();
+        for (index, map) in maps.iter().enumerate() {
+            let view = map.view();
+            let near = |a: DVec3, b: DVec3| a.abs_diff_eq(b, 1e-9 * (1.0 + b.length()));
+            let problem = if !view.is_perspective() {
+                "is not in perspective"
+            } else if !near(view.light().truncate(), first.light().truncate()) {
+                "stands elsewhere than the first"
+            } else if view.kind() != first.kind() || view.kind() == Kind::Screen {
+                "must store axial or Euclidean distance, as the first does"
+            } else {
+                continue;
+            };
+            return Err(AroundError::View { index, problem });
+        }
+        Ok(Self { filter, evaluate: Evaluate::default(), maps })
+    }
+
+    /// The maps, in their order.
+    pub fn maps(&self) -> &[M] {
+        &self.maps
+    }
+
+    /// Bytes held for the depths of all views (W78-10, X-6).
+    pub fn bytes(&self) -> usize {
+        self.maps.iter().map(DepthMap::bytes).sum()
+    }
+
+    #[inline(always)]
+    fn batch<S: Simd>(&self, simd: S, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
+        let eye = self.maps[0].view().light().truncate();
+        for (point, fraction) in at.iter().zip(out) {
+            let key = key.region(point.region);
+            *fraction = match self.evaluate {
+                Evaluate::Own => {
+                    let own = nearest(&self.maps, point.position.as_dvec3() - eye);
+                    self.ask(simd, &Face { maps: &self.maps, own }, point, key)
+                }
+                Evaluate::Every => self.maps.iter().map(|map| self.within(simd, map, point, key)).fold(0.0, f32::max),
+            };
+        }
+    }
+
+    #[inline(always)]
+    fn ask<S: Simd, N: DepthMap>(&self, simd: S, map: &N, point: &SurfacePoint, key: Key) -> f32 {
+        match map.view().receiver(point) {
+            Ok(receiver) => self.filter.shadow(simd, map, &receiver, key, &mut ()),
+            Err(place) => f32::from(u8::from(map.view().rules().verdict(place) == Verdict::Shadowed)),
+        }
+    }
+
+    /// The answer of one view, 0 for a point that it does not see.
+    #[inline(always)]
+    fn within<S: Simd>(&self, simd: S, map: &M, point: &SurfacePoint, key: Key) -> f32 {
+        match map.view().receiver(point) {
+            Ok(receiver) if map.view().locate(receiver.footprint.centre) == Where::Inside => {
+                self.filter.shadow(simd, map, &receiver, key, &mut ())
+            }
+            _ => 0.0,
+        }
+    }
+}
+
+impl<F: Filter, M: DepthMap> Shadow for Around<F, M> {
+    fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
+        dispatch!(Level::new(), simd => self.batch(simd, at, key, out));
+    }
+}
+
+/// The map whose axis is nearest to a direction; the first of several.
+#[inline(always)]
+pub(crate) fn nearest<M: DepthMap>(maps: &[M], direction: DVec3) -> usize {
+    let (mut own, mut most) = (0, f64::NEG_INFINITY);
+    for (index, map) in maps.iter().enumerate() {
+        let along = map.view().ahead().dot(direction);
+        if along > most {
+            (own, most) = (index, along);
+        }
+    }
+    own
+}
+
+/// One of several maps around a light, whose texels outside are answered by its neighbours: every filter crosses the seams
+/// unchanged (R87-17, T-16).
+struct Face<'a, M> {
+    maps: &'a [M],
+    own: usize,
+}
+
+impl<M: DepthMap> Face<'_, M> {
+    /// What the neighbour stores in the direction of a texel outside, as this view would store it.
+    fn beyond(&self, texel: IVec2) -> f32 {
+        let view: &View = self.view();
+        let eye = view.light().truncate();
+        let direction = view.world_at(view.sampling().position(texel), view.key(1.0)) - eye;
+        let other = nearest(self.maps, direction);
+        if other == self.own {
+            return f32::INFINITY;
+        }
+        let map = &self.maps[other];
+        let there = map.view();
+        let seen = there.world_to_eye().transform_vector3(direction);
+        let depth = map.depth(there.eye_to_texel(seen).floor().as_ivec2());
+        match view.kind() {
+            Kind::Axial => depth * (view.ahead().dot(direction) / there.ahead().dot(direction)) as f32,
+            Kind::Radial | Kind::Screen => depth,
+        }
+    }
+}
+
+impl<M: DepthMap> DepthMap for Face<'_, M> {
+    #[inline(always)]
+    fn view(&self) -> &View {
+        self.maps[self.own].view()
+    }
+
+    #[inline(always)]
+    fn depth(&self, texel: IVec2) -> f32 {
+        if TexelRect::of_size(self.view().size()).contains(texel) {
+            self.maps[self.own].depth(texel)
+        } else {
+            self.beyond(texel)
+        }
+    }
+
+    #[inline(always)]
+    fn range(&self, rect: TexelRect) -> DepthRange {
+        let inside = TexelRect::of_size(self.view().size()).encloses(rect);
+        if inside { self.maps[self.own].range(rect) } else { DepthRange::UNKNOWN }
+    }
+
+    fn bytes(&self) -> usize {
+        self.maps[self.own].bytes()
+    }
+}
