@@ -1,10 +1,13 @@
 //! The catalogue: one entry a row, in the order of the gallery.
 
+mod all_round;
+mod bump;
 mod curves;
 mod faults;
 mod reeves_idea;
 mod reeves_listing;
 mod reeves_parameters;
+mod reeves_scenes;
 mod sphere_plane;
 mod spheres;
 mod studio;
@@ -32,8 +35,11 @@ pub const FIGURES: &[&Figure] = &[
     &reeves_parameters::F8,
     &reeves_parameters::F9,
     &reeves_parameters::F10,
+    &reeves_scenes::F11,
     &reeves_parameters::FLOAT,
     &reeves_parameters::PASS1,
+    &all_round::OMNI,
+    &bump::BUMP,
     &reeves_parameters::T2,
     &curves::ACNE,
     &curves::NOISE,

@@ -6,11 +6,11 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock};
 use umbrage_depth::{First, Raw, Tiled, quantise};
 use umbrage_oracle::metrics::{self, Grid};
-use umbrage_oracle::{Geometry, RayCast, heat};
+use umbrage_oracle::{Geometry, RayCast, Truth, heat};
 use umbrage_plane::{Kind, Sampling, View};
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Picture, Soup, bake, bind, picture};
-use umbrage_scene::Scene;
+use umbrage_render::{Frame, Picture, Soup, bake, bind, bind_lights, light_maps, picture};
+use umbrage_scene::{Light, Scene};
 use umbrage_shadow::{Filter, Shadow, Unshadowed};
 
 /// A scene set up for one figure: camera and map sizes chosen, light 0 baked.
@@ -88,6 +88,52 @@ impl Set {
             made.insert(name, truth.clone());
         }
         truth
+    }
+}
+
+/// A scene of several lights: each has its map, and its shadow by the recipe of its own tree or by the figure's.
+pub struct Stage {
+    pub scene: Scene,
+    pub maps: Vec<Option<Tiled>>,
+}
+
+impl Stage {
+    /// `pixels` across the camera's picture; the lights' maps keep their sizes, divided by `coarser`.
+    pub fn new(mut scene: Scene, pixels: u32, coarser: u32) -> Self {
+        scene.camera = sized(&scene.camera, pixels);
+        for light in &mut scene.lights {
+            light.view = sized(&light.view, (light.view.size().x / coarser).max(1));
+        }
+        let maps = light_maps(&scene);
+        Self { scene, maps }
+    }
+
+    /// The picture with every light's shadow.
+    pub fn shoot(&self, cx: &Context, recipe: &str, frame: &Frame) -> anyhow::Result<Picture> {
+        let shadows = bind_lights(&self.scene, &self.maps, &recipe.parse()?, cx.storage)?;
+        Ok(self.draw(cx, &shadows, frame))
+    }
+
+    /// The picture without any shadow.
+    pub fn plain(&self, cx: &Context, frame: &Frame) -> Picture {
+        picture(&self.scene, &[], &Frame { seed: cx.seed, ..*frame })
+    }
+
+    /// Rays instead of maps, for the lights that cast; what is left out of the maps blocks no light.
+    pub fn truth(&self, cx: &Context, frame: &Frame) -> Picture {
+        let geometry = Geometry::new(&self.scene, &self.scene.camera);
+        let truth = Truth { casters_only: true, ..Truth::default() };
+        let ray = |light: &Light| -> Box<dyn Shadow + '_> {
+            if light.casts { Box::new(RayCast::new(&geometry, &light.view).with(truth)) } else { Box::new(Unshadowed) }
+        };
+        let shadows: Vec<Box<dyn Shadow + '_>> = self.scene.lights.iter().map(ray).collect();
+        let shadows: Vec<&dyn Shadow> = shadows.iter().map(AsRef::as_ref).collect();
+        picture(&self.scene, &shadows, &Frame { seed: cx.seed, ..*frame })
+    }
+
+    fn draw(&self, cx: &Context, shadows: &[Box<dyn Shadow>], frame: &Frame) -> Picture {
+        let shadows: Vec<&dyn Shadow> = shadows.iter().map(AsRef::as_ref).collect();
+        picture(&self.scene, &shadows, &Frame { seed: cx.seed, ..*frame })
     }
 }
 

@@ -71,15 +71,16 @@ impl Paged {
         Ok((Self { view, pager: Arc::clone(&pager) }, PagedHandle { pager }))
     }
 
-    /// The depths of some texels, at most 32. Those of one tile are answered together, so that a footprint across tiles asks
-    /// for each of them once.
-    fn depths<const N: usize>(&self, texels: [IVec2; N]) -> [f32; N] {
+    /// The depths of at most 32 texels; +∞ for those outside `within`. Those of one tile are answered together, so that a footprint
+    /// across tiles asks for each of them once.
+    fn depths<const N: usize>(&self, within: TexelRect, texels: [IVec2; N]) -> [f32; N] {
+        const { assert!(N <= 32, "one bit a texel") };
         let mut depths = [f32::INFINITY; N];
         if self.pager.error().is_some() {
             return depths;
         }
-        let window = self.pager.layout.window();
-        let inside = |i: usize| u32::from(window.contains(texels[i])) << i;
+        let within = self.pager.layout.window().intersect(within);
+        let inside = |i: usize| u32::from(within.contains(texels[i])) << i;
         let mut left = (0..N).fold(0, |lanes, i| lanes | inside(i));
         LAST.with_borrow_mut(|slot| {
             let mut last = slot.take().filter(|last| last.pager.as_ptr() == Arc::as_ptr(&self.pager));
@@ -142,13 +143,14 @@ impl DepthMap for Paged {
     }
 
     fn depth(&self, texel: IVec2) -> f32 {
-        self.depths([texel])[0]
+        self.depths(self.pager.layout.window(), [texel])[0]
     }
 
+    /// Lanes outside `within` are +∞ and cost no page.
     #[inline(always)]
-    fn look<S: Simd>(&self, simd: S, _within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
+    fn look<S: Simd>(&self, simd: S, within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
         let (column, row) = (floor_texel(simd, x), floor_texel(simd, y));
-        f32x16::load_array(simd, self.depths(std::array::from_fn(|i| IVec2::new(column[i], row[i]))))
+        f32x16::load_array(simd, self.depths(within, std::array::from_fn(|i| IVec2::new(column[i], row[i]))))
     }
 
     /// Nothing outside the data window, unknown inside: no tile is read to answer this.

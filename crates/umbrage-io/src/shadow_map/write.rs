@@ -34,7 +34,12 @@ pub(crate) fn encode(map: &impl DepthMap) -> Result<Vec<u8>, Fault> {
 
 /// The smallest rectangle around the finite depths (R87-19); one texel, as EXR needs it, when there are none.
 fn stored_window(map: &impl DepthMap) -> TexelRect {
-    let finite = TexelRect::of_size(map.view().size()).texels().filter(|texel| map.depth(*texel).is_finite());
+    let whole = TexelRect::of_size(map.view().size());
+    let side = TILE as i32;
+    let cells = TexelRect::new(IVec2::ZERO, (whole.max + side - 1) / side).texels();
+    let blocks = cells.map(|cell| TexelRect::new(cell * side, (cell + 1) * side).intersect(whole));
+    let filled = blocks.filter(|block| map.range(*block).min < f32::INFINITY);
+    let finite = filled.flat_map(TexelRect::texels).filter(|texel| map.depth(*texel).is_finite());
     let one = |texel: IVec2| TexelRect::new(texel, texel + IVec2::ONE);
     let window = finite.fold(TexelRect::EMPTY, |window, texel| window.union(one(texel)));
     if window.is_empty() { one(IVec2::ZERO) } else { window }

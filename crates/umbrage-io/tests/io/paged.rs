@@ -47,15 +47,14 @@ fn coordinate(draws: &mut Draws, size: u32) -> f32 {
 }
 
 #[inline(always)]
-fn look<S: Simd>(simd: S, map: &impl DepthMap, at: &[[f32; 16]; 2]) -> [f32; 16] {
-    let whole = TexelRect::of_size(map.view().size());
-    map.look(simd, whole, f32x16::load_array(simd, at[0]), f32x16::load_array(simd, at[1])).to_array()
+fn look<S: Simd>(simd: S, map: &impl DepthMap, within: TexelRect, at: &[[f32; 16]; 2]) -> [f32; 16] {
+    map.look(simd, within, f32x16::load_array(simd, at[0]), f32x16::load_array(simd, at[1])).to_array()
 }
 
 /// `batches` of sixteen positions, all over the map or close together; a quarter of the batches one by one.
 fn looks_alike(map: &impl DepthMap, raw: &Raw, seed: u32, batches: u32) {
     let size = raw.view().size();
-    let level = Level::new();
+    let (level, whole) = (Level::new(), TexelRect::of_size(size));
     let mut draws = Draws(seed);
     for batch in 0..batches {
         let close = draws.below(4) != 0;
@@ -69,7 +68,7 @@ fn looks_alike(map: &impl DepthMap, raw: &Raw, seed: u32, batches: u32) {
         let found = if batch % 4 == 0 {
             std::array::from_fn(|i| map.depth(texel(i)))
         } else {
-            dispatch!(level, simd => look(simd, map, &at))
+            dispatch!(level, simd => look(simd, map, whole, &at))
         };
         assert_eq!(found.map(f32::to_bits), wanted.map(f32::to_bits), "{at:?}");
     }
@@ -150,6 +149,23 @@ fn r87_22_ranges_enclose_and_cost_no_page() {
     assert_eq!((range(46, 30), range(60, 40)), (DepthRange::UNKNOWN, DepthRange::UNKNOWN));
     assert_eq!(paged.depth(IVec2::ZERO), f32::INFINITY);
     assert_eq!((handle.faults(), handle.resident_pages(), paged.bytes()), (0, 0, 0));
+}
+
+#[test]
+fn r87_20_a_footprint_reads_each_of_its_tiles_once_and_lanes_that_do_not_matter_none() {
+    let (path, raw) = full("paged_footprint");
+    // From (60, 60) to (67, 67), across the corner of four tiles, from left to right and back again; two lanes far away.
+    let mut at: [[f32; 16]; 2] =
+        [std::array::from_fn(|i| 60.5 + (i % 8) as f32), std::array::from_fn(|i| 60.5 + (i / 2) as f32)];
+    (at[0][3], at[1][3], at[0][9]) = (400.5, 300.5, f32::NAN);
+    let within = TexelRect::new(IVec2::splat(60), IVec2::splat(68));
+    for (pages, wanted) in [(1, 4), (4, 4)] {
+        let (paged, handle) = opened(&path, pages);
+        let found = dispatch!(Level::new(), simd => look(simd, &paged, within, &at));
+        let wants = |i: usize| raw.depth(IVec2::new(at[0][i] as i32, at[1][i] as i32));
+        assert!((0..16).filter(|i| ![3, 9].contains(i)).all(|i| found[i].to_bits() == wants(i).to_bits()));
+        assert_eq!((found[3], handle.faults()), (f32::INFINITY, wanted));
+    }
 }
 
 /// 512 × 384 texels, all of them with a surface: 8 × 6 tiles.
@@ -303,13 +319,11 @@ fn r87_20_a_map_of_16384_squared_in_one_megabyte() {
         filled.then(|| Tile::new(Box::new(std::array::from_fn(depth)), UVec2::splat(TILE))).flatten()
     };
     let tiled = Tiled::from_tiles(view, (0..grid * grid).map(tile).collect());
-    let t = std::time::Instant::now();
     write_shadow_map(&path, &Bbox::from(&tiled)).expect("written");
-    println!("fault write {:?}", t.elapsed());
     let (paged, handle) = opened(&path, 64);
     assert_eq!(paged.view().size(), UVec2::splat(16_384));
     let mut draws = Draws(16);
-    for _ in 0..100_000 {
+    for _ in 0..20_000 {
         let at = if draws.below(4) == 0 { UVec2::ZERO } else { UVec2::new(9_400, 6_200) };
         let size = if at == UVec2::ZERO { 16_384 } else { 1_700 };
         let texel = (at + UVec2::new(draws.below(size) & !1, draws.below(size) >> 3 << 3)).as_ivec2();
@@ -322,76 +336,4 @@ fn r87_20_a_map_of_16384_squared_in_one_megabyte() {
     assert!(handle.error().is_none());
     assert_eq!(handle.resident_pages(), 64);
     assert!(paged.bytes() <= 1 << 20);
-}
-
-#[test]
-fn measure_tmp() {
-    use std::time::Instant;
-    use std::hint::black_box;
-    let (path, raw) = full("measure");
-    let t = Instant::now();
-    for _ in 0..100 { black_box(opened(&path, 8)); }
-    println!("open {:?}", t.elapsed() / 100);
-    let (paged, handle) = opened(&path, 1);
-    let t = Instant::now();
-    for i in 0..2000 { black_box(paged.depth(IVec2::new((i % 2) * 100, 0))); }
-    println!("fault {:?} ({})", t.elapsed() / 2000, handle.faults());
-    let (paged, handle) = opened(&path, 100);
-    let mut draws = Draws(3);
-    let lanes: Vec<[[f32; 16]; 2]> = (0..4096).map(|_| { let (x, y) = (draws.unit() * 480.0, draws.unit() * 360.0);
-        [std::array::from_fn(|_| x + draws.unit() * 12.0), std::array::from_fn(|_| y + draws.unit() * 12.0)] }).collect();
-    let level = Level::new();
-    fn bench(name: &str, level: Level, map: &impl DepthMap, lanes: &[[[f32; 16]; 2]]) {
-        let mut best = f64::MAX;
-        for _ in 0..20 {
-            let t = Instant::now();
-            for at in lanes { black_box(dispatch!(level, simd => look(simd, map, at))); }
-            best = best.min(t.elapsed().as_secs_f64());
-        }
-        println!("look {name} {:.2} ns/tap", best * 1e9 / (lanes.len() * 16) as f64);
-        let texels: Vec<IVec2> = lanes.iter().flat_map(|at| (0..16).map(|i| IVec2::new(at[0][i] as i32, at[1][i] as i32)).collect::<Vec<_>>()).collect();
-        let mut best = f64::MAX;
-        for _ in 0..20 {
-            let t = Instant::now();
-            for at in &texels { black_box(map.depth(*at)); }
-            best = best.min(t.elapsed().as_secs_f64());
-        }
-        println!("depth {name} {:.2} ns", best * 1e9 / texels.len() as f64);
-        let mut far = texels.clone();
-        far.iter_mut().enumerate().for_each(|(i, t)| if i % 2 == 0 { *t = IVec2::new((t.x + 256) % 512, t.y) });
-        let t = Instant::now();
-        for at in &far { black_box(map.depth(*at)); }
-        println!("depth other tile each time {name} {:.2} ns", t.elapsed().as_secs_f64() * 1e9 / far.len() as f64);
-    }
-    bench("raw", level, &raw, &lanes);
-    bench("tiled", level, &Tiled::from(&raw), &lanes);
-    bench("paged", level, &paged, &lanes);
-    std::thread::scope(|s| { for _ in 0..2 { s.spawn(|| bench("paged x2", level, &paged, &lanes)); } });
-    println!("{}", handle.faults());
-    // full 16384^2
-    let big = path.with_file_name("big.exr");
-    let grid = 16_384 / TILE;
-    let tile = |index: u32| {
-        let depth = |i: usize| 10.0 + (index as f32).sin() * 3.0 + (mix32(index << 10 | i as u32) >> 28) as f32 / 16.0;
-        Tile::new(Box::new(std::array::from_fn(depth)), UVec2::splat(TILE))
-    };
-    let tiled = Tiled::from_tiles(sun(UVec2::splat(16_384)), (0..grid * grid).map(tile).collect());
-    let t = Instant::now();
-    write_shadow_map(&big, &tiled).expect("written");
-    println!("write full 16384 {:?}, {} bytes", t.elapsed(), std::fs::metadata(&big).unwrap().len());
-}
-#[test]
-fn measure2_tmp() {
-    use std::time::Instant;
-    use std::hint::black_box;
-    let big = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("io/measure/big.exr");
-    let mut draws = Draws(3);
-    let t = Instant::now();
-    let (paged, handle) = opened(&big, 64);
-    println!("open big {:?}", t.elapsed());
-    let rss = || std::fs::read_to_string("/proc/self/status").unwrap().lines().filter(|l| l.starts_with("VmRSS")).collect::<String>();
-    println!("{}", rss());
-    let t = Instant::now();
-    for _ in 0..100_000 { black_box(paged.depth(IVec2::new(draws.below(16384) as i32, draws.below(16384) as i32))); }
-    println!("100k random over full big {:?} faults {} {}", t.elapsed(), handle.faults(), rss());
 }

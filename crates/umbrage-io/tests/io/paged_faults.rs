@@ -20,16 +20,16 @@ fn file() -> (Raw, Vec<u8>) {
 const IN_TILE: [IVec2; 4] = [IVec2::new(52, 50), IVec2::new(116, 50), IVec2::new(52, 112), IVec2::new(116, 112)];
 
 fn on_disk(test: &str, bytes: &[u8]) -> PathBuf {
-    let path = folder("paged_faults").with_file_name(format!("paged_{test}.exr"));
+    let path = folder(&format!("paged_{test}")).join("lamp.exr");
     write_bytes(&path, bytes).expect("written");
     path
 }
 
 /// Opening fails with one line that names the file.
-fn refused(bytes: &[u8], pages: usize) -> String {
-    let path = on_disk("refused", bytes);
+fn refused(test: &str, bytes: &[u8], pages: usize) -> String {
+    let path = on_disk(test, bytes);
     let line = Paged::open(&path, pages).expect_err("refused").to_string();
-    assert!(line.contains("paged_refused.exr: ") && !line.contains('\n'), "{line}");
+    assert!(line.contains("lamp.exr: ") && !line.contains('\n'), "{line}");
     line
 }
 
@@ -105,15 +105,15 @@ fn c_5_a_nan_in_a_page_is_named() {
 #[test]
 fn r87_20_what_is_wrong_before_the_tiles_is_refused_at_open() {
     let (_, bytes) = file();
-    assert!(refused(&bytes, 0).ends_with("pages is 0: one must be kept at least"));
+    assert!(refused("refused", &bytes, 0).ends_with("pages is 0: one must be kept at least"));
     let at = table(&bytes, 4);
     for length in (0..at + 33).step_by(41).chain([at - 1, at, at + 8, at + 31, at + 32]) {
-        refused(&bytes[..length], 1);
+        refused("refused", &bytes[..length], 1);
     }
     let patched = |at: usize, with: &[u8]| {
         let mut bytes = bytes.clone();
         bytes[at..at + with.len()].copy_from_slice(with);
-        refused(&bytes, 1)
+        refused("refused", &bytes, 1)
     };
     for lie in [0u64, 8, at as u64, bytes.len() as u64, u64::MAX, 1 << 63] {
         assert!(patched(at + 8, &lie.to_le_bytes()).contains("offset table is "));
@@ -124,8 +124,8 @@ fn r87_20_what_is_wrong_before_the_tiles_is_refused_at_open() {
     assert!(patched(value(&bytes, "displayWindow", "box2i"), &words([0, 0, 99_999, 9])).contains("displayWindow is "));
     let view = spot(UVec2::splat(40));
     let lines = foreign(&view, Blocks::ScanLines, Compression::ZIP16);
-    assert!(refused(&lines, 1).ends_with("tiles is missing: scan lines cannot be paged"));
-    let absent = folder("paged_faults").join("no\nlamp.exr");
+    assert!(refused("refused", &lines, 1).ends_with("tiles is missing: scan lines cannot be paged"));
+    let absent = folder("paged_absent").join("no\nlamp.exr");
     let line = Paged::open(&absent, 1).expect_err("absent").to_string();
     assert!(line.contains("no\\nlamp.exr: cannot open") && !line.contains('\n'), "{line}");
 }
@@ -139,7 +139,7 @@ fn r87_20_what_is_read_at_open_is_bounded() {
     long.extend((3i32 << 20).to_le_bytes());
     long.resize(at + (3 << 20), b'#');
     long.extend(&bytes[at..]);
-    assert!(refused(&long, 1).ends_with("header is unreadable: it passes 1048576 bytes"));
+    assert!(refused("bounded", &long, 1).ends_with("header is unreadable: it passes 1048576 bytes"));
     // The count of blocks would tell first, were it not for the misspelling.
     let mut many = bytes.clone();
     let count = value(&bytes, "chunkCount", "int") - "chunkCount_int_____".len();
@@ -150,9 +150,9 @@ fn r87_20_what_is_read_at_open_is_bounded() {
     }
     let tiles = value(&bytes, "tiles", "tiledesc");
     many[tiles..tiles + 8].copy_from_slice(&words([1, 1, 0, 0])[..8]);
-    assert!(refused(&many, 1).ends_with("offset table is 1073741824: more than the allowed 4194304 blocks"));
+    assert!(refused("bounded", &many, 1).ends_with("offset table is 1073741824: more than the allowed 4194304 blocks"));
     many[tiles..tiles + 8].copy_from_slice(&words([64, 64, 0, 0])[..8]);
-    assert!(refused(&many, 1).ends_with("262144 blocks need more"));
+    assert!(refused("bounded", &many, 1).ends_with("262144 blocks need more"));
 }
 
 #[test]

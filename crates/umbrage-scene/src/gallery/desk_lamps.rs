@@ -21,15 +21,15 @@ pub fn desk_lamps() -> Scene {
     let big = Pose {
         scale: 1.0,
         foot: DVec3::new(-30.0, 0.0, -6.0),
-        heading: -0.35,
+        heading: -0.30,
         elbow: Vec3::new(-9.0, 25.0, 0.0),
         neck: Vec3::new(9.0, 43.0, 0.0),
-        look: Vec3::new(0.80, -0.80, 0.16),
+        look: Vec3::new(0.66, -0.82, 0.16),
     }
     .lamp();
     let small = Pose {
-        scale: 0.52,
-        foot: DVec3::new(30.0, 0.0, 4.0),
+        scale: 0.56,
+        foot: DVec3::new(31.0, 0.0, 2.0),
         heading: 3.55,
         elbow: Vec3::new(-10.0, 19.0, 0.0),
         neck: Vec3::new(5.0, 34.0, 0.0),
@@ -50,11 +50,11 @@ pub fn desk_lamps() -> Scene {
     let lights = vec![
         spot("big lamp", &big, 2048).coloured(Vec3::new(0.88, 0.80, 0.62)),
         spot("small lamp", &small, 1024).coloured(Vec3::new(0.55, 0.48, 0.36)),
-        overhead.coloured(Vec3::new(0.13, 0.15, 0.20)),
+        overhead.coloured(Vec3::new(0.17, 0.20, 0.27)),
     ];
     let camera = View::perspective(
-        DVec3::new(10.0, 40.0, 128.0),
-        DVec3::new(1.0, 19.0, 0.0),
+        DVec3::new(10.0, 54.0, 122.0),
+        DVec3::new(1.0, 15.5, 0.0),
         DVec3::Y,
         38f64.to_radians(),
         20.0,

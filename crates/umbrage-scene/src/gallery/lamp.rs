@@ -35,8 +35,9 @@ pub(super) struct Pose {
     pub(super) look: Vec3,
 }
 
-/// Full angle of a spot at the filament that just holds the whole opening of the shade, degrees: it is the rim that bounds the light.
-pub(super) const CONE_DEG: f64 = 92.0;
+/// Full angle of a spot at the filament, degrees: wide enough to light the inside of the shade too, so that it is the
+/// rim, in the light's map, that bounds what leaves the lamp.
+pub(super) const CONE_DEG: f64 = 126.0;
 
 /// Radius of the foot.
 const FOOT: f32 = 8.5;

@@ -3,6 +3,8 @@
 //! Object and light ids are the indices named in each scene's documentation. World units are those of Reeves' biases: a
 //! world about 100 wide, except for Williams' unit spheres.
 
+mod bicycle;
+mod bicycle_shop;
 mod desk_lamps;
 mod four_spheres;
 mod lamp;
@@ -11,7 +13,9 @@ mod sculpt;
 mod smile;
 mod sphere_plane;
 mod teapot;
+mod workshop;
 
+pub use bicycle_shop::bicycle_shop;
 pub use desk_lamps::desk_lamps;
 pub use four_spheres::{four_spheres, four_spheres_lit_from};
 pub use robot::robot;
@@ -34,6 +38,7 @@ pub const ALL: &[(&str, Make)] = &[
     ("smile", smile),
     ("robot", robot),
     ("desk-lamps", desk_lamps),
+    ("bicycle-shop", bicycle_shop),
 ];
 
 /// How many bicubic patches a scene has.

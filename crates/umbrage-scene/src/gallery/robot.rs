@@ -26,14 +26,10 @@ pub fn robot() -> Scene {
     body.leg(-1.0);
     body.leg(1.0);
     // One arm greets, the other one rests.
-    body.arm(
-        &[Vec3::new(-11.5, 40.0, 0.0), Vec3::new(-21.0, 42.0, 3.0), Vec3::new(-24.0, 53.0, 6.0)],
-        Vec3::new(-0.15, 1.0, 0.1),
-    );
-    body.arm(
-        &[Vec3::new(11.5, 40.0, 0.0), Vec3::new(18.0, 31.5, -1.0), Vec3::new(20.0, 21.5, 5.0)],
-        Vec3::new(0.1, -1.0, 0.25),
-    );
+    let greeting = [Vec3::new(11.5, 40.0, 0.0), Vec3::new(21.0, 42.0, 3.0), Vec3::new(24.0, 53.0, 6.0)];
+    body.arm(&greeting, Vec3::new(0.15, 1.0, 0.1));
+    let resting = [Vec3::new(-11.5, 40.0, 0.0), Vec3::new(-18.0, 31.5, -1.0), Vec3::new(-19.0, 21.5, 5.0)];
+    body.arm(&resting, Vec3::new(-0.1, -1.0, 0.25));
 
     let solid = |name: &str, patches: Vec<Patch>, diffuse: Vec3, specular: f32| Object {
         solid: true,
@@ -46,16 +42,16 @@ pub fn robot() -> Scene {
     let floor = Mesh::cuboid(Vec3::new(-200.0, -SLAB_THICKNESS, -28.0), Vec3::new(200.0, 0.0, 160.0));
     let wall = Mesh::cuboid(Vec3::new(-220.0, -6.0, -26.0 - SLAB_THICKNESS), Vec3::new(220.0, 160.0, -26.0));
     let sun =
-        Light::directional("sun", DVec3::new(-0.95, 0.56, 0.74), DVec3::new(0.0, 28.0, 0.0), 52.0, 20.0, 600.0, size)
+        Light::directional("sun", DVec3::new(-0.80, 0.52, 0.76), DVec3::new(0.0, 28.0, 0.0), 52.0, 20.0, 600.0, size)
             .expect("a constant view is valid");
     let fill =
         Light::directional("fill", DVec3::new(0.9, 0.4, 0.7), DVec3::new(0.0, 28.0, 0.0), 52.0, 20.0, 600.0, size)
             .expect("a constant view is valid");
     let camera = View::perspective(
         DVec3::new(40.0, 44.0, 140.0),
-        DVec3::new(13.0, 28.0, -8.0),
+        DVec3::new(16.0, 28.5, -8.0),
         DVec3::Y,
-        33f64.to_radians(),
+        35f64.to_radians(),
         20.0,
         500.0,
         size,
@@ -120,7 +116,7 @@ impl Body {
             self.joints.extend(turned(&ring(2.0, 0.8), ROUND, &at));
         }
         let tilt = Mat4::from_translation(Vec3::Y * 46.6)
-            * Mat4::from_quat(Quat::from_rotation_z(0.10) * Quat::from_rotation_y(0.16));
+            * Mat4::from_quat(Quat::from_rotation_z(-0.10) * Quat::from_rotation_y(0.16));
         let skull = tilt * Mat4::from_scale(Vec3::new(1.0, 1.0, 0.80));
         self.shell.extend(turned(&drum(8.2, 0.0, 11.6, 2.6), BOXY, &skull));
         self.joints.extend(turned(&ring(3.4, 0.7), BOXY, &(tilt * Mat4::from_translation(Vec3::Y * 11.6))));

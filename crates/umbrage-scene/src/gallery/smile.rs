@@ -1,7 +1,7 @@
 use super::SLAB_THICKNESS;
 use super::sculpt::skin;
 use crate::{Light, Material, Mesh, Object, Patch, Scene, Shape};
-use glam::{DVec3, UVec2, Vec2, Vec3};
+use glam::{DVec3, UVec2, Vec3};
 use std::f32::consts::{PI, TAU};
 use umbrage_plane::View;
 
@@ -24,7 +24,8 @@ pub fn smile() -> Scene {
     let size = UVec2::splat(1024);
     let enamel = Material { diffuse: Vec3::new(0.80, 0.77, 0.68), specular: Vec3::splat(0.18), shininess: 40.0 };
     let lip = Material { diffuse: Vec3::new(0.62, 0.06, 0.08), specular: Vec3::splat(0.30), shininess: 35.0 };
-    let stone = Material::matt(Vec3::new(0.62, 0.58, 0.50));
+    let plaster = Material::matt(Vec3::new(0.46, 0.54, 0.58));
+    let stone = Material::matt(Vec3::new(0.66, 0.57, 0.44));
     let wall = Mesh::cuboid(Vec3::new(-140.0, -120.0, -SLAB_THICKNESS), Vec3::new(180.0, 120.0, 0.0));
     let column = Mesh::cylinder(Vec3::new(29.0, -110.0, 0.0), Vec3::new(29.0, 110.0, 0.0), 14.0, Mesh::FINE);
     let sun =
@@ -34,9 +35,9 @@ pub fn smile() -> Scene {
         .expect("a constant view is valid");
     let camera = View::perspective(
         DVec3::new(26.0, 4.0, 165.0),
-        DVec3::new(8.0, -2.0, 10.0),
+        DVec3::new(6.0, -2.0, 10.0),
         DVec3::Y,
-        28f64.to_radians(),
+        30f64.to_radians(),
         20.0,
         500.0,
         size,
@@ -48,7 +49,7 @@ pub fn smile() -> Scene {
             Object::two_sided("lips", Shape::Patches(lips()), lip),
             Object::two_sided("upper teeth", Shape::Patches(teeth(&UPPER)), enamel),
             Object::two_sided("lower teeth", Shape::Patches(teeth(&LOWER)), enamel),
-            Object::solid("wall", wall, stone),
+            Object::solid("wall", wall, plaster),
             Object::solid("column", column, stone),
         ],
         lights: vec![
@@ -85,7 +86,7 @@ fn lip(angle: f32, across: f32) -> Vec3 {
     let x = HALF_WIDTH * cos;
     let bow = 1.0 - 0.28 * (-(x / 3.4).powi(2)).exp() + 0.10 * (-((x.abs() - 6.0) / 4.0).powi(2)).exp();
     let (outer, inner, full) = if sin >= 0.0 {
-        (5.8 * open.powf(0.75) * bow, 1.5 * open, 3.0)
+        (5.8 * open.powf(0.85) * bow, 1.5 * open, 3.0)
     } else {
         (-11.4 * open.powf(0.9), -5.6 * open, 4.4)
     };
@@ -97,26 +98,24 @@ fn lip(angle: f32, across: f32) -> Vec3 {
 
 /// A row of teeth, mirrored about the middle: widths from there on, and heights of their two ends on the smile's line.
 struct Row {
-    widths: [f32; 5],
+    widths: [f32; 6],
     root: f32,
     edge: f32,
     /// How far behind the lips' line.
     behind: f32,
 }
 
-const UPPER: Row = Row { widths: [5.2, 4.3, 4.2, 3.6, 3.2], root: 3.4, edge: -3.0, behind: 2.6 };
-const LOWER: Row = Row { widths: [3.5, 3.6, 3.7, 3.5, 3.2], root: -8.4, edge: -4.0, behind: 3.6 };
+const UPPER: Row = Row { widths: [5.0, 4.2, 4.1, 3.5, 3.1, 2.6], root: 1.7, edge: -2.9, behind: 2.6 };
+const LOWER: Row = Row { widths: [3.5, 3.6, 3.8, 3.6, 3.3, 2.8], root: -7.6, edge: -4.3, behind: 3.6 };
 
 fn teeth(row: &Row) -> Vec<Patch> {
     let mut patches = Vec::new();
     let mut from = 0.0;
-    for (index, width) in row.widths.into_iter().enumerate() {
-        let shrink = 1.0 - 0.035 * (index * index) as f32;
+    for width in row.widths {
         for side in [1.0, -1.0] {
             let middle = side * (from + 0.5 * width);
-            let at = |u: f32, v: f32| tooth(row, Vec2::new(middle, width), shrink, u, v);
-            let grid: Vec<Vec<Vec3>> =
-                (0..=4u8).map(|v| (0..=4u8).map(|u| at(f32::from(u) / 4.0, f32::from(v) / 4.0)).collect()).collect();
+            let at = |u: u8, v: u8| tooth(row, middle, width, f32::from(u) / 4.0, f32::from(v) / 4.0);
+            let grid: Vec<Vec<Vec3>> = (0..=4).map(|v| (0..=4).map(|u| at(u, v)).collect()).collect();
             patches.extend(skin(&grid, false));
         }
         from += width;
@@ -125,13 +124,14 @@ fn teeth(row: &Row) -> Vec<Patch> {
 }
 
 /// A point of a tooth: u across it, v from root to edge.
-fn tooth(row: &Row, place: Vec2, shrink: f32, u: f32, v: f32) -> Vec3 {
+fn tooth(row: &Row, middle: f32, width: f32, u: f32, v: f32) -> Vec3 {
     let side = 2.0 * u - 1.0;
-    let taper = 0.5 - 0.06 * (1.0 - v);
-    let x = place.x + place.y * taper * side;
-    // Round corners at the edge, full in the middle, sides turned back to meet the neighbours.
-    let height =
-        (row.root + (row.edge - row.root) * v) * shrink + (row.root - row.edge).signum() * 0.55 * v * side.powi(4);
+    // A little wider than its place, so that no light passes between neighbours.
+    let x = middle + 0.51 * width * side;
+    // The row closes toward the corners as the lips do.
+    let open = (1.0 - (x / HALF_WIDTH).powi(2)).max(0.0).sqrt();
+    let rounding = (row.root - row.edge).signum() * 0.4 * v * side.powi(4);
+    let height = (row.root + (row.edge - row.root) * v + rounding) * open;
     let depth = 0.8 * (1.0 - side.powi(2)) * (1.0 - 0.5 * v * v) - row.behind;
     line(x) + Vec3::new(0.0, height, depth)
 }

@@ -1,4 +1,5 @@
 use glam::{DVec2, DVec3, UVec2, Vec3};
+use std::collections::BTreeSet;
 use umbrage_plane::{Kind, View};
 use umbrage_scene::{Scene, Shape, gallery};
 
@@ -36,6 +37,8 @@ fn every_scene_is_sound() {
         assert_eq!(scene.name, *name);
         assert_eq!(scene, make(), "{name} is the same every time");
         assert!(!scene.lights.is_empty());
+        let names: BTreeSet<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
+        assert_eq!(names.len(), scene.objects.len(), "{name}: objects are found by name");
         for object in &scene.objects {
             for view in scene.lights.iter().map(|light| &light.view).chain([&scene.camera]) {
                 let small = view.with_size(UVec2::splat(64)).expect("valid");
@@ -49,20 +52,38 @@ fn every_scene_is_sound() {
     }
 }
 
+/// Whether an object may leave a light's map: what shadows fall on, what carries the light itself or stands behind it,
+/// and everything in a room that is larger than any map.
+fn reaches_beyond(scene: &str, light: &str, object: &str) -> bool {
+    match scene {
+        "desk-lamps" => match light {
+            "big lamp" => object.starts_with("big"),
+            "small lamp" => object.starts_with("big") || object.starts_with("small"),
+            _ => false,
+        },
+        "bicycle-shop" => true,
+        _ => ["slab", "wall", "floor", "column"].contains(&object),
+    }
+}
+
 #[test]
 fn w78_8_what_throws_the_shadows_is_framed_by_every_light() {
     for (name, make) in gallery::ALL {
         let scene = make();
         for light in &scene.lights {
             let outside = scene.casters_outside(&light.view);
-            for (id, object) in scene.objects.iter().enumerate() {
+            for (id, object) in scene.objects.iter().enumerate().filter(|(_, object)| object.casts) {
                 let all = object.shape.hull().all(|at| framed(&light.view, at));
                 assert_eq!(outside.contains(&(id as u32)), !all, "{name}: {}, {}", light.name, object.name);
+                if !light.casts {
+                    continue;
+                }
                 if object.name == "box" {
                     let edge = object.shape.hull().filter(|at| at.x == 0.0);
                     assert_eq!(edge.filter(|at| framed(&light.view, *at)).count(), 12);
                 } else {
-                    assert!(all || object.name == "slab", "{name}: {}, {}", light.name, object.name);
+                    let spared = reaches_beyond(name, &light.name, &object.name);
+                    assert!(all || spared, "{name}: {}, {}", light.name, object.name);
                 }
             }
         }
@@ -77,13 +98,14 @@ fn w78_8_what_throws_the_shadows_is_framed_by_every_light() {
     assert_eq!(scene.casters_outside(&view), Vec::<u32>::new());
 }
 
-/// Nothing visible is cut by the camera's or a light's near plane or lies past its far plane.
+/// Nothing visible is cut by the camera's near plane or lies past its far plane, and nothing that casts by a light's.
 #[test]
 fn ranges_hold_everything_that_is_seen() {
     for (name, make) in gallery::ALL {
         let scene = make();
-        for view in scene.lights.iter().map(|light| &light.view).chain([&scene.camera]) {
-            for object in &scene.objects {
+        let lights = scene.lights.iter().filter(|light| light.casts);
+        for (view, by_light) in lights.map(|light| (&light.view, true)).chain([(&scene.camera, false)]) {
+            for object in scene.objects.iter().filter(|object| object.casts || !by_light) {
                 let mesh = object.shape.mesh_for(&view.with_size(UVec2::splat(16)).expect("valid"));
                 for at in (0..mesh.triangles.len()).flat_map(|triangle| spread(mesh.corners(triangle))) {
                     let (eye, texel) = eye_and_texel(view, at);

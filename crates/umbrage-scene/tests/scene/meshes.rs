@@ -1,4 +1,4 @@
-use glam::{DVec3, Vec3};
+use glam::{DMat4, DVec3, Vec3};
 use proptest::prelude::*;
 use umbrage_scene::{Mesh, MeshError};
 
@@ -30,6 +30,16 @@ fn x_1_solids_are_closed_and_face_outward() {
         (Mesh::cuboid(at, high), 1.0 * 3.5 * 0.5, 0.999),
         (Mesh::cylinder(at, high, 0.5, 128), tau / 2.0 * 0.25 * f64::from((high - at).length()), 0.999),
         (Mesh::torus(at, high, 2.0, 0.5, 128), tau * tau / 2.0 * 2.0 * 0.25, 0.99),
+        // A truncated cone, and a ring of square section.
+        (Mesh::lathe(at, high, &[(0.0, 0.0), (2.0, 0.0), (1.0, 3.0), (0.0, 3.0)], 256), tau / 2.0 * 7.0, 0.999),
+        (Mesh::lathe(at, high, &[(2.0, 0.0), (3.0, 0.0), (3.0, 1.0), (2.0, 1.0)], 256), tau / 2.0 * 5.0, 0.999),
+        // Mitres take from the inside of a bend what they add to its outside.
+        (
+            Mesh::tube(&[at, at + Vec3::X * 3.0, at + Vec3::X * 3.0 + Vec3::Y * 4.0], 0.5, 128),
+            tau / 2.0 * 0.25 * 7.0,
+            0.7,
+        ),
+        (Mesh::tube(&[at, high], 0.5, 128), tau / 2.0 * 0.25 * f64::from((high - at).length()), 0.999),
     ];
     for (solid, expected, agreement) in solids {
         assert_eq!(solid.check(), Ok(()));
@@ -63,6 +73,30 @@ fn a_sphere_lies_on_its_sphere_and_reaches_its_extent() {
         12.0 - (middle - centre.as_dvec3()).length()
     });
     assert!(sagitta.fold(0.0, f64::max) < 12.0 / 4000.0);
+}
+
+#[test]
+fn a_lathe_creases_where_its_profile_turns_sharply() {
+    let turned = |profile: &[(f32, f32)]| Mesh::lathe(Vec3::ZERO, Vec3::Y, profile, 16);
+    let drum = turned(&[(0.0, 0.0), (1.0, 0.0), (1.0, 2.0), (0.0, 2.0)]);
+    assert_eq!(drum.surfaces.iter().max(), Some(&2), "base, side, top");
+    let barrel = turned(&[(0.0, 0.0), (1.0, 0.0), (1.3, 1.0), (1.0, 2.0), (0.0, 2.0)]);
+    assert_eq!(barrel.surfaces.iter().max(), Some(&2), "two legs of side are one surface");
+    let waist = barrel.positions.iter().zip(&barrel.normals).filter(|(at, _)| at.y == 1.0);
+    assert!(waist.clone().count() == 32 && waist.clone().all(|(_, normal)| normal.y.abs() < 1e-6));
+    assert_eq!(turned(&[]), Mesh::default());
+    assert_eq!(turned(&[(0.0, 0.0), (0.0, 1.0)]), Mesh::default(), "the axis alone has no surface");
+    assert_eq!(Mesh::tube(&[Vec3::ONE], 1.0, 8), Mesh::default());
+}
+
+#[test]
+fn a_transformed_mesh_keeps_its_outside_out() {
+    let map = DMat4::from_rotation_x(0.7) * DMat4::from_scale(DVec3::new(-1.0, 0.25, 3.0));
+    let pressed = Mesh::sphere(Vec3::ZERO, 1.0, 128).transformed(&map);
+    assert!(pressed.is_closed());
+    assert!(volume(&pressed) > 3.0, "four thirds of pi, times three quarters");
+    assert!(least_agreement(&pressed) > 0.98, "{}", least_agreement(&pressed));
+    assert!(pressed.normals.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-6));
 }
 
 #[test]
@@ -130,5 +164,13 @@ proptest! {
         prop_assert!(Mesh::cylinder(at, at + Vec3::new(y, z, 1.0), radius, segments).is_closed());
         prop_assert!(Mesh::torus(at, Vec3::new(z, 1.0, x), 2.0 * radius, radius, segments).is_closed());
         prop_assert!(Mesh::cuboid(at, at + radius).is_closed());
+        let profile = [(0.0, -radius), (radius, 0.0), (0.5 * radius, radius), (0.0, radius)];
+        prop_assert!(Mesh::lathe(at, Vec3::new(z, 1.0, x), &profile, segments).is_closed());
+        prop_assert!(Mesh::lathe(at, Vec3::new(z, 1.0, x), &profile[1..3], segments).is_closed());
+        let bent = [at, at + Vec3::X * 4.0 * radius, at + Vec3::new(7.0, 2.0, 1.0) * radius];
+        let tube = Mesh::tube(&bent, radius, segments);
+        prop_assert!(tube.is_closed());
+        let mirrored = DMat4::from_scale(DVec3::new(-1.0, 2.0, 0.5));
+        prop_assert!(tube.transformed(&mirrored).is_closed());
     }
 }
