@@ -52,6 +52,45 @@ impl Axis {
     }
 }
 
+/// A table as a picture: what changes from run to run has no place among the report's tables. The first column is text, the others are
+/// aligned right.
+pub fn table(title: &str, head: &[&str], rows: &[Vec<String>]) -> String {
+    const ROW: f64 = 22.0;
+    const LETTER: f64 = 7.0;
+    let cell = |row: &[String], column: usize| row.get(column).map_or(0, |text| text.chars().count());
+    let width = |column: usize| {
+        let widest = rows.iter().map(|row| cell(row, column)).max().unwrap_or(0).max(head[column].chars().count());
+        widest as f64 * LETTER + 18.0
+    };
+    let widths: Vec<f64> = (0..head.len()).map(width).collect();
+    let (across, down) = (widths.iter().sum::<f64>() + 16.0, ROW * (rows.len() as f64 + 2.0) + 12.0);
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" font-family=\"sans-serif\" font-size=\"12\" \
+         fill=\"currentColor\" role=\"img\">\n<text x=\"8\" y=\"18\" font-weight=\"bold\">{}</text>\n",
+        short(across, 5),
+        short(down, 5),
+        escape(title)
+    );
+    let heads: Vec<String> = head.iter().map(ToString::to_string).collect();
+    for (index, row) in std::iter::once(&heads).chain(rows).enumerate() {
+        let y = ROW * (index as f64 + 1.0) + 20.0;
+        let mut x = 8.0;
+        for (column, text) in row.iter().enumerate() {
+            let (at, anchor) = if column == 0 { (x, "start") } else { (x + widths[column] - 9.0, "end") };
+            let weight = if index == 0 { " opacity=\"0.7\"" } else { "" };
+            let _ = writeln!(
+                svg,
+                "<text x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\"{weight}>{}</text>",
+                short(at, 5),
+                short(y, 5),
+                escape(text)
+            );
+            x += widths[column];
+        }
+    }
+    svg + "</svg>\n"
+}
+
 /// Points that belong together.
 #[derive(Clone, Debug)]
 pub struct Series {

@@ -8,9 +8,11 @@ mod reeves_idea;
 mod reeves_listing;
 mod reeves_parameters;
 mod reeves_scenes;
+mod reeves_tables;
 mod sphere_plane;
 mod spheres;
 mod studio;
+mod williams_scenes;
 mod williams_shadow;
 mod williams_views;
 
@@ -24,6 +26,10 @@ pub const FIGURES: &[&Figure] = &[
     &williams_shadow::F4,
     &williams_shadow::F5,
     &williams_shadow::F6,
+    &williams_scenes::F7,
+    &williams_scenes::F8,
+    &williams_scenes::COST,
+    &williams_scenes::PLANE,
     &williams_views::TEAPOT,
     &reeves_idea::F1,
     &reeves_idea::F2,
@@ -36,11 +42,15 @@ pub const FIGURES: &[&Figure] = &[
     &reeves_parameters::F9,
     &reeves_parameters::F10,
     &reeves_scenes::F11,
+    &reeves_scenes::F12,
+    &reeves_scenes::F13,
+    &reeves_scenes::F14,
     &reeves_parameters::FLOAT,
     &reeves_parameters::PASS1,
     &all_round::OMNI,
     &bump::BUMP,
-    &reeves_parameters::T2,
+    &reeves_tables::T1,
+    &reeves_tables::T2,
     &curves::ACNE,
     &curves::NOISE,
     &faults::FAULTS,

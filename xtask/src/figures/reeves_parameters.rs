@@ -1,16 +1,16 @@
-//! Reeves, Salesin & Cook 1987, Figures 7 to 10, the float and pass-1 remarks, Table 2: what each parameter does.
+//! Reeves, Salesin & Cook 1987, Figures 7 to 10, the float and pass-1 remarks: what each parameter does.
 
 use super::sphere_plane::{CAST_EDGE, PLANE, SPHERE, TERMINATOR, false_shadow, penumbra};
 use super::studio::{
     Set, error_panel, of, shadow_grid, shadow_panel, truth_panel, value, with_kind, zoomed, zoomed_error,
 };
-use crate::figure::{Context, Figure, Made, Measure, Panel, Paper, Role, Table};
+use crate::figure::{Context, Figure, Made, Measure, Paper, Role};
 use crate::plot::{Axis, Plot, Series};
-use glam::{DVec2, DVec3, UVec2};
-use umbrage_depth::{Bbox, DepthMap, Raw, Tiled};
+use glam::{DVec2, DVec3};
+use umbrage_depth::Tiled;
 use umbrage_oracle::metrics::{self, Band};
 use umbrage_oracle::predict;
-use umbrage_plane::{Bias, Kind, Sampling, TexelRect, View};
+use umbrage_plane::{Bias, Kind, Sampling, View};
 use umbrage_render::{Frame, Picture};
 use umbrage_sample::{Centre, Jittered, Pattern, Uniform};
 use umbrage_scene::{Scene, gallery};
@@ -420,70 +420,5 @@ fn pass1(cx: &Context) -> anyhow::Result<Made> {
         }
     }
     made.measures.push(Measure::at_least("jaggedness, stochastic over regular", errors[1] / errors[0], "ratio", 1.0));
-    Ok(made)
-}
-
-pub const T2: Figure = Figure {
-    id: "R87-T2",
-    paper: Paper::Reeves87,
-    title: "Storage of depth maps",
-    claim: "A bounding box helps; tiles help scattered scenes and can cost more.",
-    make: storage,
-};
-
-fn storage(_cx: &Context) -> anyhow::Result<Made> {
-    let mut made = Made::default();
-    let mut rows = Vec::new();
-    let without_ground = |mut scene: Scene, ground: usize| {
-        scene.objects[ground].casts = false;
-        scene
-    };
-    let scenes = [
-        ("sphere, plane left out", without_ground(gallery::sphere_plane(), PLANE as usize), Some((0.85, 1.25))),
-        ("box on a slab", gallery::box_plane(), None),
-        ("four spheres", gallery::four_spheres(), None),
-        ("teapot on a plane", gallery::teapot(), None),
-    ];
-    for (name, scene, compact) in scenes {
-        let set = Set::new(scene, 64, 1024);
-        let raw = Raw::from(&set.map);
-        let bytes = [raw.bytes(), Bbox::from(&raw).bytes(), set.map.bytes()];
-        let megabytes = bytes.map(|b| b as f64 / f64::from(1 << 20));
-        rows.push(std::iter::once(name.to_owned()).chain(megabytes.iter().map(|mb| format!("{mb:.2}"))).collect());
-        made.measures.push(Measure::exactly(&format!("{name}: raw"), megabytes[0], "MB", 4.0));
-        let ratio = bytes[2] as f64 / bytes[1] as f64;
-        let name = format!("{name}: tiles over box");
-        made.measures.push(match compact {
-            Some((low, high)) => Measure::within(&name, ratio, "ratio", low, high),
-            None => Measure::info(&name, ratio, "ratio"),
-        });
-        let grey = umbrage_io::depth_view(&raw);
-        let file = name.split([',', ':', ' ']).next().unwrap_or("map").to_owned();
-        made.panels
-            .push(Panel::grey(&file, &name.replace(": tiles over box", ""), UVec2::splat(1024), grey).role(Role::Map));
-    }
-    for (name, raw, boxed, tiled) in [
-        ("paper: sphere", 4.0, 0.4, 0.4),
-        ("paper: coloured lights", 12.0, 2.6, 2.9),
-        ("paper: Luxo Jr.", 24.0, 13.0, 3.7),
-        ("paper: bicycle shop", 8.0, 5.6, 4.2),
-    ] {
-        rows.push(vec![name.into(), format!("{raw:.2}"), format!("{boxed:.2}"), format!("{tiled:.2}")]);
-    }
-    let head = ["scene", "raw MB", "box MB", "32² tiles MB"].map(String::from).to_vec();
-    made.tables.push(Table { name: "megabytes".into(), head, rows });
-    let view = gallery::sphere_plane().lights[0].view.with_size(UVec2::splat(1024))?;
-    let filled = |inside: &dyn Fn(glam::IVec2) -> bool| -> anyhow::Result<Raw> {
-        let depth = |t| if inside(t) { 1.0 } else { f32::INFINITY };
-        Ok(Raw::new(view, TexelRect::of_size(view.size()).texels().map(depth).collect())?)
-    };
-    let rectangle = filled(&|t| (100..=131).contains(&t.x) && (200..=231).contains(&t.y))?;
-    let disc = filled(&|t| (t.as_dvec2() + 0.5).distance(DVec2::splat(512.0)) < 160.0)?;
-    made.measures.extend([
-        Measure::exactly("32² rectangle: box (V27)", Bbox::from(&rectangle).bytes() as f64, "bytes", 4096.0),
-        Measure::exactly("32² rectangle: tiles (V27)", Tiled::from(&rectangle).bytes() as f64, "bytes", 16_384.0),
-        Measure::exactly("disc of radius 160: box (V28)", Bbox::from(&disc).bytes() as f64, "bytes", 409_600.0),
-        Measure::exactly("disc of radius 160: tiles (V28)", Tiled::from(&disc).bytes() as f64, "bytes", 88.0 * 4096.0),
-    ]);
     Ok(made)
 }

@@ -122,7 +122,8 @@ impl Stage {
     /// Rays instead of maps, for the lights that cast; what is left out of the maps blocks no light.
     pub fn truth(&self, cx: &Context, frame: &Frame) -> Picture {
         let geometry = Geometry::new(&self.scene, &self.scene.camera);
-        let truth = Truth { casters_only: true, ..Truth::default() };
+        // Regions are asked at their middles, which lie a little beside finely cut surfaces.
+        let truth = Truth { casters_only: true, own_slack: 0.1, ..Truth::default() };
         let ray = |light: &Light| -> Box<dyn Shadow + '_> {
             if light.casts { Box::new(RayCast::new(&geometry, &light.view).with(truth)) } else { Box::new(Unshadowed) }
         };
