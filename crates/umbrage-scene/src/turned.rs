@@ -11,8 +11,8 @@ impl Mesh {
     ///
     /// The outside is to the right of the profile as it is walked: from bottom to top for a solid whose two ends lie on
     /// the axis, counter-clockwise in the (radius, height) plane for a ring. A profile whose ends are not both on the
-    /// axis is closed from its last point to its first. Legs that turn by more than 40° meet in a crease; each smooth
-    /// run is a surface, in order. Repeated points and a profile without a leg off the axis leave nothing.
+    /// axis is closed from its last point to its first; such a ring has at least three. Legs that turn by more than 40°
+    /// meet in a crease; each smooth run is a surface, in order. Repeated points and a profile without a leg off the axis leave nothing.
     pub fn lathe(base: Vec3, axis: Vec3, profile: &[(f32, f32)], segments: u32) -> Self {
         let n = segments.max(3);
         let legs = legs(profile);

@@ -4,6 +4,7 @@ mod all_round;
 mod bump;
 mod curves;
 mod faults;
+mod paging;
 mod reeves_idea;
 mod reeves_listing;
 mod reeves_parameters;
@@ -54,4 +55,5 @@ pub const FIGURES: &[&Figure] = &[
     &curves::ACNE,
     &curves::NOISE,
     &faults::FAULTS,
+    &paging::PAGING,
 ];

@@ -16,7 +16,7 @@ pub(super) struct Bicycle {
 }
 
 /// Spokes of a wheel, every second one to the other flange of its hub.
-pub(super) const SPOKES: u16 = 32;
+const SPOKES: u16 = 32;
 /// Outer radius of a wheel, tyre included.
 pub(super) const WHEEL: f32 = 7.6;
 
@@ -27,7 +27,7 @@ const SEAT: Vec3 = Vec3::new(-4.6, 17.0, 0.0);
 const HEAD_TOP: Vec3 = Vec3::new(8.3, 17.6, 0.0);
 const HEAD_LOW: Vec3 = Vec3::new(9.2, 14.4, 0.0);
 
-/// A bicycle, all parts but its wheels turned by nothing. `drop_bars` bends the handlebar down and forward.
+/// A bicycle; `drop_bars` bends its handlebar forward and down instead of back.
 pub(super) fn bicycle(drop_bars: bool) -> Bicycle {
     let (mut rubber, mut metal) = wheel();
     let (tyre, spokes) = (rubber.clone(), metal.clone());
@@ -161,7 +161,7 @@ fn saddle(at: Vec3) -> Mesh {
         let part = f32::from(step) / f32::from(STEPS);
         let full = 0.42 + 1.05 / (1.0 + (14.0 * (part - 0.42)).exp());
         let ends = (1.0 - (2.0 * part - 1.0).powi(8)).max(0.0).sqrt();
-        (if step % STEPS == 0 { 0.0 } else { full * ends }, 5.0 * part - 2.5)
+        (if step.is_multiple_of(STEPS) { 0.0 } else { full * ends }, 5.0 * part - 2.5)
     };
     let profile: Vec<(f32, f32)> = (0..=STEPS).map(outline).collect();
     let pressed = DMat4::from_translation(at.as_dvec3()) * DMat4::from_scale(DVec3::new(1.0, 0.42, 1.0));

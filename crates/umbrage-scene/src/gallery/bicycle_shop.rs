@@ -29,8 +29,8 @@ pub fn bicycle_shop() -> Scene {
     }
     furniture(&mut objects);
     let camera = View::perspective(
-        DVec3::new(16.0, 33.0, 112.0),
-        DVec3::new(-3.0, 21.0, -8.0),
+        DVec3::new(36.0, 35.0, 110.0),
+        DVec3::new(-7.0, 21.0, -8.0),
         DVec3::Y,
         41f64.to_radians(),
         20.0,
@@ -167,7 +167,7 @@ fn room() -> Vec<Object> {
 fn furniture(objects: &mut Vec<Object>) {
     let timber = Material::matt(Vec3::new(0.30, 0.18, 0.09));
     let store = shelves(8.0);
-    let [carton, crate_] = store.boxes;
+    let [cartons, crates] = store.boxes;
     let [red, blue] = store.tins;
     let (bench, tools) = bench(-52.0);
     let (tyres, rims) = loose_wheels();
@@ -175,12 +175,13 @@ fn furniture(objects: &mut Vec<Object>) {
     let rubber = Material { diffuse: Vec3::splat(0.045), specular: Vec3::splat(0.06), shininess: 12.0 };
     objects.extend([
         Object::solid("shelves", store.wood, timber),
-        Object::solid("cartons", carton, Material::matt(Vec3::new(0.42, 0.30, 0.17))),
-        Object::solid("crates", crate_, Material::matt(Vec3::new(0.20, 0.26, 0.22))),
+        Object::solid("cartons", cartons, Material::matt(Vec3::new(0.42, 0.30, 0.17))),
+        Object::solid("crates", crates, Material::matt(Vec3::new(0.20, 0.26, 0.22))),
         Object::solid("red tins", red, gloss(Vec3::new(0.50, 0.09, 0.06))),
         Object::solid("blue tins", blue, gloss(Vec3::new(0.10, 0.24, 0.42))),
         Object::solid("bench", bench, timber),
         Object::solid("tools", tools, STEEL),
+        Object::solid("pegs", pegs(), timber),
         Object::solid("loose tyres", tyres, rubber),
         Object::solid("loose rims", rims, STEEL),
         Object::solid("pendant", shade, gloss(Vec3::new(0.10, 0.22, 0.16))),
@@ -190,6 +191,16 @@ fn furniture(objects: &mut Vec<Object>) {
             ..Object::solid("bulb", bulb, Material::matt(Vec3::new(1.0, 1.0, 0.95)))
         },
     ]);
+}
+
+/// What the bicycle on the wall hangs from, by its top tube.
+fn pegs() -> Mesh {
+    let mut mesh = Mesh::default();
+    for (x, y) in [(-33.2, 52.52), (-24.8, 53.04)] {
+        let at = |out: f32, up: f32| Vec3::new(x, y + up, -BACK + out);
+        mesh.append(&Mesh::tube(&[at(-0.5, -0.15), at(6.2, 0.0), at(7.4, 0.9)], 0.4, 16));
+    }
+    mesh
 }
 
 /// Wheels that hang on the right wall and lean at the foot of the shelves.
@@ -244,13 +255,13 @@ fn lights() -> Vec<Light> {
     let map = UVec2::splat(1024);
     let pendant = Light::spot("pendant", PENDANT, PENDANT - DVec3::Y, 124.0, 1.0, 200.0, map);
     let moon =
-        Light::spot("moon", DVec3::new(-190.0, 112.0, -36.0), DVec3::new(-64.0, 34.0, -7.0), 19.0, 80.0, 420.0, map);
+        Light::spot("moon", DVec3::new(-190.0, 112.0, -36.0), DVec3::new(-64.0, 34.0, -7.0), 33.0, 80.0, 420.0, map);
     let fill = |name: &str, at: DVec3, colour: Vec3| {
         let light = Light::point(name, at, DVec3::new(0.0, 20.0, 0.0), 80.0, 5.0, 400.0, map);
         Light { casts: false, ..light.expect("a constant view is valid").coloured(colour) }
     };
     vec![
-        pendant.expect("a constant view is valid").coloured(Vec3::new(0.62, 0.50, 0.32)),
+        pendant.expect("a constant view is valid").coloured(Vec3::new(0.74, 0.59, 0.37)),
         moon.expect("a constant view is valid").coloured(Vec3::new(0.34, 0.46, 0.72)),
         fill("street", DVec3::new(-60.0, 50.0, 140.0), Vec3::new(0.020, 0.028, 0.048)),
         fill("doorway", DVec3::new(90.0, 40.0, 120.0), Vec3::new(0.030, 0.022, 0.014)),

@@ -1,4 +1,4 @@
-use super::lamp::{CONE_DEG, Lamp, Pose};
+use super::lamp::{CONE_DEG, Lamp, MAP_DEG, Pose};
 use crate::{Light, Material, Mesh, Object, Scene};
 use glam::{DVec3, UVec2, Vec3};
 use umbrage_plane::View;
@@ -10,8 +10,8 @@ const BALL: f32 = 6.0;
 /// Salesin & Cook 1987, Figure 12 (R87-F12).
 ///
 /// Objects 0 to 2 are the table's boards in three tones, the ground that is left out of the maps: it receives but does not cast.
-/// Then come each lamp's frame, shade and bulb (big 3, 4, 5; small 6, 7, 8), the ball (9) and its band (10). Bulbs
-/// neither cast nor receive. Lights 0 and 1 are the big and the small lamp's spots, inside their shades, whose rims bound the light;
+/// Then come each lamp's frame, shade, lining and bulb (big 3 to 6, small 7 to 10), the ball (11) and its band (12).
+/// Linings and bulbs neither cast nor receive: they glow. Lights 0 and 1 are the big and the small lamp's spots, inside their shades, whose rims bound the light;
 /// light 2 is overhead. All cast; their maps are 2048 × 2048, 1024 × 1024 and 1024 × 1024. The table is y = 0 and the
 /// picture 1024 × 1024.
 ///
@@ -33,7 +33,7 @@ pub fn desk_lamps() -> Scene {
         heading: 3.55,
         elbow: Vec3::new(-10.0, 19.0, 0.0),
         neck: Vec3::new(5.0, 34.0, 0.0),
-        look: Vec3::new(0.95, -0.42, -0.35),
+        look: Vec3::new(0.82, -0.63, -0.20),
     }
     .lamp();
     let middle = Vec3::new(4.0, BALL, 10.0);
@@ -69,8 +69,10 @@ pub fn desk_lamps() -> Scene {
     {
         objects.push(Object::solid(&format!("{name} lamp"), lamp.frame, paint(colour * 0.8)));
         objects.push(Object::solid(&format!("{name} shade"), lamp.shade, paint(colour)));
-        let bulb = Object::solid(&format!("{name} bulb"), lamp.bulb, Material::matt(Vec3::new(1.0, 1.0, 0.96)));
-        objects.push(Object { casts: false, receives: false, ..bulb });
+        for (part, mesh, colour) in [("lining", lamp.lining, colour), ("bulb", lamp.bulb, Vec3::new(1.0, 1.0, 0.96))] {
+            let glowing = Object::solid(&format!("{name} {part}"), mesh, Material::matt(colour));
+            objects.push(Object { casts: false, receives: false, ..glowing });
+        }
     }
     objects.push(Object::solid("ball", Mesh::sphere(middle, BALL, Mesh::FINE), paint(Vec3::new(0.06, 0.34, 0.40))));
     objects.push(Object::solid("ball band", band(middle), paint(Vec3::new(0.80, 0.62, 0.16))));
@@ -86,8 +88,13 @@ pub fn desk_lamps() -> Scene {
 
 fn spot(name: &str, lamp: &Lamp, size: u32) -> Light {
     // The near plane lies before everything that the map's corners see of the shade.
-    Light::spot(name, lamp.filament, lamp.filament + lamp.toward, CONE_DEG, 1.0, 400.0, UVec2::splat(size))
-        .expect("a constant view is valid")
+    let ahead = lamp.filament + lamp.toward;
+    let mut light = Light::spot(name, lamp.filament, ahead, MAP_DEG, 1.0, 400.0, UVec2::splat(size))
+        .expect("a constant view is valid");
+    // Beyond its map all that receives is dark; what does not, the lining, is lit as far as the cone goes.
+    let tan_half = (0.5 * CONE_DEG.to_radians()).tan();
+    light.view = light.view.with_cone(Some(tan_half)).expect("a constant view is valid");
+    light
 }
 
 /// A sash around the ball, a little proud of it.

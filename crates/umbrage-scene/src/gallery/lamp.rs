@@ -10,6 +10,8 @@ pub(super) struct Lamp {
     pub(super) frame: Mesh,
     /// Shade with its socket, as thick as sheet metal.
     pub(super) shade: Mesh,
+    /// A thin reflector all over the inside of the shade.
+    pub(super) lining: Mesh,
     /// The bulb. Its shading normals point inward: glass that is lit from within.
     pub(super) bulb: Mesh,
     /// Where the filament is: at the bulb's back, so that nearly all of the bulb is before it.
@@ -35,14 +37,17 @@ pub(super) struct Pose {
     pub(super) look: Vec3,
 }
 
-/// Full angle of a spot at the filament, degrees: wide enough to light the inside of the shade too, so that it is the
-/// rim, in the light's map, that bounds what leaves the lamp.
-pub(super) const CONE_DEG: f64 = 126.0;
+/// Full angle of a map at the filament, degrees: it just holds the opening of the shade, so that it is the rim that
+/// bounds what leaves the lamp.
+pub(super) const MAP_DEG: f64 = 80.0;
+
+/// Full angle of the light itself, degrees: it reaches the lining too.
+pub(super) const CONE_DEG: f64 = 120.0;
 
 /// Radius of the foot.
 const FOOT: f32 = 8.5;
-/// Behind the filament lies the shade's apex, before it the rim, which it sees at 44° from the axis.
-const FILAMENT: f32 = 2.2;
+/// Behind the filament lies the shade's apex, before it the rim, which it sees at 39° from the axis.
+const FILAMENT: f32 = 0.6;
 
 impl Pose {
     pub(super) fn lamp(&self) -> Lamp {
@@ -61,6 +66,7 @@ impl Pose {
         Lamp {
             frame: self.frame(look).transformed(&placed),
             shade: shade.transformed(&placed),
+            lining: Mesh::lathe(apex, look, &lining(), 192).transformed(&placed),
             bulb: bulb.transformed(&placed),
             filament: placed.transform_point3((apex + look * FILAMENT).as_dvec3()),
             toward: placed.transform_vector3(look.as_dvec3()).normalize(),
@@ -117,10 +123,10 @@ const BASE: [(f32, f32); 10] = [
     (0.0, 4.4),
 ];
 
-const SOCKET: [(f32, f32); 6] = [(0.0, -2.6), (1.9, -2.6), (2.3, -2.2), (2.3, 1.3), (1.9, 2.0), (0.0, 2.0)];
+const SOCKET: [(f32, f32); 6] = [(0.0, -2.6), (1.9, -2.6), (2.3, -2.2), (2.3, -0.2), (1.8, 0.4), (0.0, 0.4)];
 
 /// Out along the back, round the rim and home along the inside.
-const SHADE: [(f32, f32); 16] = [
+const SHADE: [(f32, f32); 17] = [
     (0.0, -2.0),
     (2.9, -2.0),
     (3.3, -1.5),
@@ -135,9 +141,18 @@ const SHADE: [(f32, f32); 16] = [
     (7.0, 6.0),
     (5.7, 4.2),
     (4.0, 2.5),
-    (2.6, 0.8),
-    (0.0, 0.8),
+    (3.0, 0.8),
+    (2.5, -0.6),
+    (0.0, -0.6),
 ];
+
+/// Along the shade's inside, home a little nearer to its axis.
+fn lining() -> Vec<(f32, f32)> {
+    // What the shade's profile has between its rim and its back, from the back.
+    let inside = || SHADE[10..=14].iter().rev().copied().chain([(8.93, 11.3)]);
+    let nearer = |by: f32| inside().map(move |(radius, height)| (radius - by, height));
+    nearer(0.06).chain(nearer(0.12).collect::<Vec<_>>().into_iter().rev()).collect()
+}
 
 /// A coil between two points.
 fn spring(from: Vec3, to: Vec3) -> Mesh {

@@ -164,6 +164,12 @@ impl Body {
         let reach = reach.normalize();
         self.joints.extend(turned(&ring(1.2, 0.6), ROUND, &(facing(*wrist, reach))));
         let hand = facing(*wrist, reach);
+        let length = elbow.distance(*wrist);
+        self.joints.extend(turned(
+            &drum(1.15, 0.8 * length, length + 0.5, 0.4),
+            ROUND,
+            &facing(*elbow, *wrist - *elbow),
+        ));
         let palm = hand * Mat4::from_scale(Vec3::new(1.0, 1.0, 0.55));
         self.trim.extend(turned(&drum(2.6, 0.4, 4.4, 1.2), 0.75, &palm));
         for (x, lean) in [(-1.8, -0.22), (0.0, 0.0), (1.8, 0.22)] {

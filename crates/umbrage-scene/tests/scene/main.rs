@@ -1,7 +1,7 @@
 //! Laws and known answers of `umbrage-scene`.
 
-mod framing;
 mod figures;
+mod framing;
 mod gallery;
 mod lights;
 mod meshes;
