@@ -118,13 +118,13 @@ fn paging(cx: &Context) -> anyhow::Result<Made> {
             Measure::info("its tiles that hold a surface", map.bytes() as f64 / f64::from(1 << 20), "MB"),
             Measure::at_most(
                 "4 pages: faults by buckets over those at random",
-                counted[2][1] as f64 / counted[2][2] as f64,
+                counted[1][1] as f64 / counted[1][2] as f64,
                 "ratio",
                 0.5,
             ),
             Measure::at_most(
                 "4 pages: faults by buckets over those by scan lines",
-                counted[3][1] as f64 / counted[3][0] as f64,
+                counted[1][1] as f64 / counted[1][0] as f64,
                 "ratio",
                 1.0,
             ),

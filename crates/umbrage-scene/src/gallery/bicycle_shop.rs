@@ -6,11 +6,11 @@ use glam::{DMat4, DVec3, UVec2, Vec3};
 use umbrage_plane::View;
 
 /// A dim bicycle shop at night, after Reeves, Salesin & Cook 1987, Figure 14 (R87-F14): bicycles with all their spokes,
-/// shelves, a bench and loose wheels in a room that fills both maps nearly everywhere.
+/// shelves, a bench and loose wheels that fill much of both maps.
 ///
 /// Seven lights, of which the first two cast, with maps of 1024 × 1024: a pendant over the middle (light 0) and the moon
-/// through the barred window in the left wall (light 1). Lights 2 to 6 are dim fills. Everything casts and receives but
-/// the pendant's bulb. Objects are found by name: `floor`, `back wall`, `window wall`, `right wall` and `ceiling` are the room;
+/// through the barred window in the left wall (light 1). Lights 2 to 6 are dim fills. Everything receives but the pendant's
+/// bulb, and all but that, floor, ceiling, back wall and right wall casts. Objects are found by name: `floor`, `back wall`, `window wall`, `right wall` and `ceiling` are the room;
 /// each bicycle is a `frame`, a `rubber` and a `metal` object with its number. The floor is y = 0; the picture is 1024 × 1024.
 ///
 /// # Panics
@@ -149,16 +149,19 @@ fn room() -> Vec<Object> {
         slab(Vec3::new(-HALF_WIDTH - 2.5, HEIGHT, -BACK - 1.0), Vec3::new(HALF_WIDTH + 2.5, HEIGHT + t, OPEN));
     let plaster = Material::matt(Vec3::new(0.42, 0.38, 0.32));
     let timber = Material::matt(Vec3::new(0.22, 0.14, 0.08));
+    // What has nothing behind it in the room throws no shadow there, and stays out of the maps (R87-5).
+    let backdrop =
+        |name: &str, mesh: Mesh, material: Material| Object { casts: false, ..Object::solid(name, mesh, material) };
     vec![
-        Object::solid(
+        backdrop(
             "floor",
             floor,
             Material { diffuse: Vec3::new(0.30, 0.27, 0.24), specular: Vec3::splat(0.04), shininess: 20.0 },
         ),
-        Object::solid("back wall", back, plaster),
+        backdrop("back wall", back, plaster),
         Object::solid("window wall", window_wall(), plaster),
-        Object::solid("right wall", right, plaster),
-        Object::solid("ceiling", ceiling, Material::matt(Vec3::new(0.30, 0.27, 0.23))),
+        backdrop("right wall", right, plaster),
+        backdrop("ceiling", ceiling, Material::matt(Vec3::new(0.30, 0.27, 0.23))),
         Object::solid("beams", beams(), timber),
         Object::solid("window bars", window_bars(), timber),
     ]
