@@ -19,7 +19,9 @@ struct Picture {
 
 /// The README's pictures.
 const PICTURES: &[Picture] = &[
-    Picture { file: "fixtures/readme/hero.png", figure: "U-teapot", panel: "shaded" },
+    Picture { file: "fixtures/readme/hero.png", figure: "R87-F14", panel: "shop" },
+    Picture { file: "fixtures/readme/robot.png", figure: "W78-F8", panel: "robot" },
+    Picture { file: "fixtures/readme/lamps.png", figure: "R87-F12", panel: "c-jittered" },
     Picture { file: "fixtures/readme/williams.png", figure: "W78-F6", panel: "applied" },
     Picture { file: "fixtures/readme/ordinary.png", figure: "R87-F6", panel: "a-zoom" },
     Picture { file: "fixtures/readme/filtered.png", figure: "R87-F6", panel: "b-zoom" },

@@ -251,6 +251,29 @@ fn v26_bytes_of_whole_maps() {
     assert_eq!(2.0 * megabytes(1024), 8.0);
 }
 
+/// The paper's first table: minutes without shadows, pass 1, pass 2 and total; lights; per cent more.
+#[test]
+fn v30_the_paper_s_times_recomputed() {
+    let table: [([f64; 4], f64, f64); 4] = [
+        ([42.0, 9.7, 48.0, 57.7], 1.0, 37.381),
+        ([64.4, 14.2, 80.8, 95.0], 3.0, 47.516),
+        ([58.8, 14.6, 74.2, 88.8], 3.0, 51.020),
+        ([261.3, 55.3, 332.1, 387.4], 2.0, 48.259),
+    ];
+    let wanted = [(84.0f64, 0.618f64), (257.6, 0.464), (235.2, 0.487), (783.9, 0.439)];
+    let mut mean = 0.0;
+    for (([plain, pass_1, pass_2, total], lights, percent), (naive, share)) in table.into_iter().zip(wanted) {
+        let close = |a: f64, b: f64| assert!((a - b).abs() < 6e-4, "{a} {b}");
+        close(pass_1 + pass_2, total);
+        close(100.0 * (total - plain) / plain, percent);
+        close((1.0 + lights) * plain, naive);
+        close(pass_1 / (total - plain), share);
+        assert!(total < naive);
+        mean += 0.25 * percent;
+    }
+    assert!((mean - 46.05).abs() < 0.01, "the printed mean");
+}
+
 /// The paper's second table: raw, box and tiles in MB, and the ratios that it amounts to.
 #[test]
 fn v29_the_paper_s_ratios_of_storage() {

@@ -20,6 +20,7 @@
 //! # Ok::<(), umbrage_io::Fault>(())
 //! ```
 
+mod cube;
 mod depth_view;
 mod error;
 mod file;
@@ -27,6 +28,7 @@ mod paged;
 mod picture;
 mod shadow_map;
 
+pub use cube::opengl_cube_face;
 pub use depth_view::depth_view;
 pub use error::{Fault, IoError};
 pub use file::{write_atomic, write_bytes};

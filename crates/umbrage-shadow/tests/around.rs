@@ -10,18 +10,18 @@ const KEY: Key = Key::new(5, 0, 0);
 const EYE: DVec3 = DVec3::new(1.0, -2.0, 3.0);
 
 /// A map of a view that sees, in the direction `d`, a surface at the distance `seen(d)`.
-fn map(view: View, seen: impl Fn(DVec3) -> f64) -> Raw {
+fn map(view: &View, seen: impl Fn(DVec3) -> f64) -> Raw {
     let depths = TexelRect::of_size(view.size()).texels().map(|texel| {
         let at = view.sampling().position(texel);
         let direction = (view.world_at(at, view.key(1.0)) - EYE).normalize();
         let axial = if view.kind() == Kind::Axial { view.ahead().dot(direction) } else { 1.0 };
         (seen(direction) * axial) as f32
     });
-    Raw::new(view, depths.collect()).unwrap()
+    Raw::new(*view, depths.collect()).unwrap()
 }
 
 fn cube(side: u32, kind: Kind, seen: impl Fn(DVec3) -> f64 + Copy) -> Vec<Raw> {
-    cube_views(EYE, 0.1, 100.0, side).unwrap().map(|view| map(view.with_kind(kind), seen)).to_vec()
+    cube_views(EYE, 0.1, 100.0, side).unwrap().map(|view| map(&view.with_kind(kind), seen)).to_vec()
 }
 
 /// A region `size` world units wide in the direction `d`, ten units away, facing the light.
@@ -105,7 +105,7 @@ fn t_16_virtual_samples_cross_cube_seams() {
 
 fn sectors() -> Vec<Raw> {
     let cut = Sectors { count: 5, margin: 0.05, tan_elevation: 0.9, size: UVec2::new(200, 180) };
-    sector_views(EYE, 0.1, 100.0, &cut).unwrap().into_iter().map(|view| map(view, cap)).collect()
+    sector_views(EYE, 0.1, 100.0, &cut).unwrap().iter().map(|view| map(view, cap)).collect()
 }
 
 #[test]

@@ -83,7 +83,7 @@ fn reduced_bias(cx: &Context) -> anyhow::Result<Made> {
         )
         .full_size(cx),
     );
-    made.measures.push(Measure::info("the same in truth", offset(&exact.shadow[0]), "R"));
+    made.measures.push(Measure::info("the terminator in truth", offset(&exact.shadow[0]), "R"));
     // The negative control: depth smoothed before it is looked up.
     let smooth = Tiled::from(&bandlimit(&Raw::from(&set.map), 1));
     let controlled = set.shoot_map(cx, reduced(1.0), &smooth, &Frame::CENTRES);
