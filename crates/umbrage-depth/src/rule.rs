@@ -1,7 +1,7 @@
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
-/// Which of the surfaces behind a texel is stored.
+/// Which of the surfaces behind a texel is stored (spec X-3).
 ///
 /// A rule is a reduction over the fragments of a texel whose result does not depend on their order, so that
 /// neither threads nor tiling can change a bit. Rules see keys ([`umbrage_plane::Affine`]); keys become depths once, in [`DepthRule::resolve`].

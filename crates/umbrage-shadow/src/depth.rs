@@ -18,7 +18,8 @@ pub enum Spread {
     /// At random (Reeves 1987, R87-14): a surface that curves away shadows itself gradually, with noise.
     #[default]
     Random,
-    /// As a ramp: tap k takes the radical inverse of k, so that the taps of a region share the range evenly, without noise.
+    /// As a ramp: tap k takes the radical inverse of k, so that the taps of a region share the range without noise; evenly when
+    /// they are a power of two. Bias and place in the region then go together, as taps come row by row.
     Ramp,
 }
 

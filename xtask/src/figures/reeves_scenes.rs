@@ -70,12 +70,13 @@ fn coloured(cx: &Context) -> anyhow::Result<Made> {
             error_panel("error", "Mean shadow less truth", picture.size, &grey(&picture), &grey(&truth)),
         ],
         measures,
+        note: stage.warnings(),
         ..Made::default()
     })
 }
 
 /// For scenes whose bias is not the subject: Reeves' filter against the tangent plane.
-pub const RECIPE: &str = "reeves87-recommended,depth=plane,bias=0.25";
+const RECIPE: &str = "reeves87-recommended,depth=plane,bias=0.25";
 
 /// Mean shadow of the casting lights, for error panels.
 fn mean_shadow(stage: &Stage, picture: &Picture) -> Vec<f32> {
@@ -141,6 +142,7 @@ fn desk_lamps(cx: &Context) -> anyhow::Result<Made> {
             Measure::at_most("error of (c)", error(&stage, &jittered, &truth), "rms share", 0.12),
             Measure::at_most("noise of (c) over (a)", noise(&jittered) / noise(&uniform), "ratio", 1.0),
         ],
+        note: stage.warnings(),
         ..Made::default()
     })
 }
@@ -233,6 +235,7 @@ fn shop(cx: &Context) -> anyhow::Result<Made> {
             ),
             Measure::at_most("error of the shadow", error(&stage, &picture, &truth), "rms share", 0.15),
         ],
+        note: stage.warnings(),
         ..Made::default()
     })
 }

@@ -18,7 +18,8 @@ pub fn spheres(cx: &Context) -> Set {
     Set::new(gallery::four_spheres(), cx.pick(512, 256), cx.pick(512, 256))
 }
 
-/// Bias in texel widths, "px" in the figures; the light is at infinity, so it is one world distance everywhere.
+/// Bias in texel widths, "px" in the figures; the light is at infinity, so it is one world distance everywhere. A departure from
+/// C-11, which counts in depth steps τ·tanθ: half of one leaves no moiré to be seen (D-9), and a bias in the matrix is no slope's.
 pub fn reduced(pixels: f32) -> Williams {
     Williams { bias: Bias::Texels(pixels), lookup: Lookup::Nearest, dither: Dither::OFF }
 }

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock};
 use umbrage_depth::{First, Raw, Tiled, quantise};
 use umbrage_oracle::metrics::{self, Grid};
-use umbrage_oracle::{Geometry, RayCast, Truth, heat};
+use umbrage_oracle::{Diagnostic, Geometry, Plan, RayCast, Truth, diagnose, heat};
 use umbrage_plane::{Kind, Sampling, View};
 use umbrage_raster::Cull;
 use umbrage_render::{Frame, Picture, Soup, bake, bind, bind_lights, light_maps, picture};
@@ -112,6 +112,28 @@ impl Stage {
     pub fn shoot(&self, cx: &Context, recipe: &str, frame: &Frame) -> anyhow::Result<Picture> {
         let shadows = bind_lights(&self.scene, &self.maps, &recipe.parse()?, cx.storage)?;
         Ok(self.draw(cx, &shadows, frame))
+    }
+
+    /// What is known to go wrong with the casting lights, for the reader of the figure (W78-8, W78-9, WM94-14).
+    pub fn warnings(&self) -> String {
+        let mut lines = Vec::new();
+        for light in &self.scene.lights {
+            let mut outside = Vec::new();
+            for found in diagnose(&self.scene, light, &Plan::default()) {
+                match found {
+                    Diagnostic::CasterOutside { object, .. } => outside.push(object),
+                    other => lines.push(format!("Warning: {other}.")),
+                }
+            }
+            if let [first, rest @ ..] = outside.as_slice() {
+                let others = if rest.is_empty() { String::new() } else { format!(" and {} more", rest.len()) };
+                lines.push(format!(
+                    "Warning: light {:?} does not see all of {first:?}{others}: shadows end where its view does.",
+                    light.name
+                ));
+            }
+        }
+        lines.join(" ")
     }
 
     /// The picture without any shadow.

@@ -74,6 +74,7 @@ fn smile(cx: &Context) -> anyhow::Result<Made> {
             ),
             Measure::at_least("overlap with truth's shadow", overlap(&picture, &truth, &receivers), "IoU", 0.95),
         ],
+        note: stage.warnings(),
         ..Made::default()
     })
 }
@@ -156,6 +157,7 @@ fn robot(cx: &Context) -> anyhow::Result<Made> {
                 1.01,
             ),
         ],
+        note: stage.warnings(),
         ..Made::default()
     })
 }
@@ -306,6 +308,7 @@ fn plane(cx: &Context) -> anyhow::Result<Made> {
                 0.05,
             ),
         ],
+        note: stage.warnings(),
         ..Made::default()
     })
 }
