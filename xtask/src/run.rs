@@ -123,6 +123,9 @@ impl Progress {
         let seconds = timings.first().map_or(0.0, |total| total.1);
         let spent = if fresh { format!("{seconds:6.1} s") } else { "   kept ".into() };
         let mut line = format!("{spent}  {:10}  {}: {}", record.verdict.word(), record.id, record.title);
+        for warning in record.note.split("Warning: ").skip(1) {
+            let _ = write!(line, "\n{:23}warning: {}", "", warning.trim());
+        }
         if record.verdict == Verdict::Missed {
             for measure in record.measures.iter().filter(|measure| measure.pass == Some(false)) {
                 let (name, value, bound) = (&measure.name, measure.value_text(), &measure.bound);

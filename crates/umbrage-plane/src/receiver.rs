@@ -1,4 +1,4 @@
-use crate::{Affine, DepthPlane, Footprint, Kind, View};
+use crate::{Affine, DepthPlane, Footprint, Kind, Projection, Verdict, View, Where};
 use glam::{DVec3, Vec2, Vec3};
 
 /// A region of surface to be shaded, in world space.
@@ -108,5 +108,96 @@ impl Receiver {
         } else {
             self.depth - world
         }
+    }
+}
+
+impl View {
+    /// A surface point as this light sees it: the exact projection of its corners, its depth, slope and facing (spec D-7).
+    ///
+    /// Corners behind the light are cut off at a sixteenth of the centre's distance; half-extents are capped at a quarter of the map.
+    ///
+    /// # Errors
+    /// The place, when that alone settles the answer by this view's [`Rules`]: behind the light, or nearer or farther than the range under rules that do not compare there.
+    #[inline(always)]
+    pub fn receiver(&self, at: &SurfacePoint) -> Result<Receiver, Where> {
+        let eye = self.world_to_eye.transform_point3(at.position.as_dvec3());
+        let zeta = -eye.z;
+        if self.is_perspective() && (zeta <= 0.0 || zeta.is_nan()) {
+            return Err(Where::Behind);
+        }
+        if zeta < self.near && self.rules.near != Verdict::Compare {
+            return Err(Where::Near);
+        }
+        if zeta > self.far && self.rules.far != Verdict::Compare {
+            return Err(Where::Far);
+        }
+        let normal = self.world_to_eye.transform_vector3(at.normal.as_dvec3());
+        let (toward, slope) = match self.projection {
+            Projection::Perspective { .. } => {
+                let ray = -eye / zeta;
+                (ray.normalize(), normal.truncate().length() / normal.dot(ray).abs())
+            }
+            Projection::Orthographic { .. } => (DVec3::Z, normal.truncate().length() / normal.z.abs()),
+        };
+        Ok(Receiver {
+            kind: self.kind,
+            footprint: self.footprint(at, eye),
+            depth: self.depth(eye),
+            texel_world: self.texel_world(zeta).as_vec2(),
+            facing: normal.dot(toward) as f32,
+            slope: if slope.is_nan() { f32::INFINITY } else { slope as f32 },
+            object: at.object,
+            eye,
+            normal,
+        })
+    }
+
+    #[inline(always)]
+    fn footprint(&self, at: &SurfacePoint, eye: DVec3) -> Footprint {
+        let centre = self.eye_to_texel(eye).as_vec2();
+        if at.corners[1] == at.corners[0] && at.corners[2] == at.corners[0] {
+            return Footprint::point(centre);
+        }
+        let nearest = -eye.z * (1.0 / 16.0);
+        let corners = at.corners.map(|corner: Vec3| self.world_to_eye.transform_point3(corner.as_dvec3()));
+        let clipped = corners.map(|corner| {
+            let zeta = -corner.z;
+            if self.is_perspective() && (zeta < nearest || zeta.is_nan()) {
+                // Back along the line to the centre until it is in front of the light.
+                let t = (-eye.z - nearest) / (-eye.z - zeta);
+                self.eye_to_texel(eye + (corner - eye) * t)
+            } else {
+                self.eye_to_texel(corner)
+            }
+            .as_vec2()
+        });
+        let whole = Footprint::around(clipped);
+        let most = self.size.as_vec2() * 0.25;
+        if whole.half.cmple(most).all() {
+            return whole;
+        }
+        // A box that is cut to size must still lie around the point that is asked about.
+        let capped = whole.scaled(1.0, 0.0, most);
+        let shift = centre.clamp(whole.centre - whole.half + capped.half, whole.centre + whole.half - capped.half)
+            - whole.centre;
+        Footprint { centre: capped.centre + shift, corners: capped.corners.map(|corner| corner + shift), ..capped }
+    }
+
+    /// The footprint by derivatives instead of exact corners: half-extent = ½(|∂/∂x| + |∂/∂y|) for the region's two axes (spec D-7, second method).
+    ///
+    /// The axes are half the differences of opposite edges' midpoints.
+    pub fn derivative_footprint(&self, at: &SurfacePoint) -> Option<Footprint> {
+        let to_texel = |point: Vec3| self.eye_to_texel(self.world_to_eye.transform_point3(point.as_dvec3()));
+        let eye = self.world_to_eye.transform_point3(at.position.as_dvec3());
+        if self.is_perspective() && (-eye.z <= 0.0 || eye.z.is_nan()) {
+            return None;
+        }
+        let [a, b, c, d] = at.corners;
+        let step = 1.0 / 64.0;
+        let (across, down) = ((b + c - a - d) * (0.5 * step), (d + c - a - b) * (0.5 * step));
+        let central =
+            |axis: Vec3| (to_texel(at.position + axis) - to_texel(at.position - axis)) / (2.0 * f64::from(step));
+        let half = (central(across).abs() + central(down).abs()) * 0.5;
+        Some(Footprint::boxed(self.eye_to_texel(eye).as_vec2(), half.as_vec2()))
     }
 }

@@ -1,5 +1,5 @@
-use crate::{Affine, Decode, Footprint, Kind, Receiver, Rules, Sampling, SurfacePoint, Verdict, Where};
-use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, UVec2, Vec2, Vec3};
+use crate::{Affine, Decode, Kind, Rules, Sampling, Where};
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, UVec2, Vec2};
 
 /// How eye space is laid on the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,16 +55,16 @@ pub enum ViewError {
 /// An eye or a light: placement, projection, texel grid, and what its map's numbers mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    world_to_eye: DMat4,
-    eye_to_world: DMat4,
-    projection: Projection,
-    near: f64,
-    far: f64,
-    size: UVec2,
-    kind: Kind,
-    sampling: Sampling,
-    rules: Rules,
-    cone: Option<f64>,
+    pub(crate) world_to_eye: DMat4,
+    pub(crate) eye_to_world: DMat4,
+    pub(crate) projection: Projection,
+    pub(crate) near: f64,
+    pub(crate) far: f64,
+    pub(crate) size: UVec2,
+    pub(crate) kind: Kind,
+    pub(crate) sampling: Sampling,
+    pub(crate) rules: Rules,
+    pub(crate) cone: Option<f64>,
 }
 
 impl View {
@@ -423,95 +423,6 @@ impl View {
     pub fn holds(&self, centre: Vec2, half: Vec2) -> bool {
         let inside = |x: f32, y: f32| self.locate(centre + half * Vec2::new(x, y)) == Where::Inside;
         inside(-1.0, -1.0) && inside(1.0, -1.0) && inside(-1.0, 1.0) && inside(1.0, 1.0)
-    }
-
-    /// A surface point as this light sees it: the exact projection of its corners, its depth, slope and facing (spec D-7).
-    ///
-    /// Corners behind the light are cut off at a sixteenth of the centre's distance; half-extents are capped at a quarter of the map.
-    ///
-    /// # Errors
-    /// The place, when that alone settles the answer by this view's [`Rules`]: behind the light, or nearer or farther than the range under rules that do not compare there.
-    #[inline(always)]
-    pub fn receiver(&self, at: &SurfacePoint) -> Result<Receiver, Where> {
-        let eye = self.world_to_eye.transform_point3(at.position.as_dvec3());
-        let zeta = -eye.z;
-        if self.is_perspective() && (zeta <= 0.0 || zeta.is_nan()) {
-            return Err(Where::Behind);
-        }
-        if zeta < self.near && self.rules.near != Verdict::Compare {
-            return Err(Where::Near);
-        }
-        if zeta > self.far && self.rules.far != Verdict::Compare {
-            return Err(Where::Far);
-        }
-        let normal = self.world_to_eye.transform_vector3(at.normal.as_dvec3());
-        let (toward, slope) = match self.projection {
-            Projection::Perspective { .. } => {
-                let ray = -eye / zeta;
-                (ray.normalize(), normal.truncate().length() / normal.dot(ray).abs())
-            }
-            Projection::Orthographic { .. } => (DVec3::Z, normal.truncate().length() / normal.z.abs()),
-        };
-        Ok(Receiver {
-            kind: self.kind,
-            footprint: self.footprint(at, eye),
-            depth: self.depth(eye),
-            texel_world: self.texel_world(zeta).as_vec2(),
-            facing: normal.dot(toward) as f32,
-            slope: if slope.is_nan() { f32::INFINITY } else { slope as f32 },
-            object: at.object,
-            eye,
-            normal,
-        })
-    }
-
-    #[inline(always)]
-    fn footprint(&self, at: &SurfacePoint, eye: DVec3) -> Footprint {
-        let centre = self.eye_to_texel(eye).as_vec2();
-        if at.corners[1] == at.corners[0] && at.corners[2] == at.corners[0] {
-            return Footprint::point(centre);
-        }
-        let nearest = -eye.z * (1.0 / 16.0);
-        let corners = at.corners.map(|corner: Vec3| self.world_to_eye.transform_point3(corner.as_dvec3()));
-        let clipped = corners.map(|corner| {
-            let zeta = -corner.z;
-            if self.is_perspective() && (zeta < nearest || zeta.is_nan()) {
-                // Back along the line to the centre until it is in front of the light.
-                let t = (-eye.z - nearest) / (-eye.z - zeta);
-                self.eye_to_texel(eye + (corner - eye) * t)
-            } else {
-                self.eye_to_texel(corner)
-            }
-            .as_vec2()
-        });
-        let whole = Footprint::around(clipped);
-        let most = self.size.as_vec2() * 0.25;
-        if whole.half.cmple(most).all() {
-            return whole;
-        }
-        // A box that is cut to size must still lie around the point that is asked about.
-        let capped = whole.scaled(1.0, 0.0, most);
-        let shift = centre.clamp(whole.centre - whole.half + capped.half, whole.centre + whole.half - capped.half)
-            - whole.centre;
-        Footprint { centre: capped.centre + shift, corners: capped.corners.map(|corner| corner + shift), ..capped }
-    }
-
-    /// The footprint by derivatives instead of exact corners: half-extent = ½(|∂/∂x| + |∂/∂y|) for the region's two axes (spec D-7, second method).
-    ///
-    /// The axes are half the differences of opposite edges' midpoints.
-    pub fn derivative_footprint(&self, at: &SurfacePoint) -> Option<Footprint> {
-        let to_texel = |point: Vec3| self.eye_to_texel(self.world_to_eye.transform_point3(point.as_dvec3()));
-        let eye = self.world_to_eye.transform_point3(at.position.as_dvec3());
-        if self.is_perspective() && (-eye.z <= 0.0 || eye.z.is_nan()) {
-            return None;
-        }
-        let [a, b, c, d] = at.corners;
-        let step = 1.0 / 64.0;
-        let (across, down) = ((b + c - a - d) * (0.5 * step), (d + c - a - b) * (0.5 * step));
-        let central =
-            |axis: Vec3| (to_texel(at.position + axis) - to_texel(at.position - axis)) / (2.0 * f64::from(step));
-        let half = (central(across).abs() + central(down).abs()) * 0.5;
-        Some(Footprint::boxed(self.eye_to_texel(eye).as_vec2(), half.as_vec2()))
     }
 }
 
