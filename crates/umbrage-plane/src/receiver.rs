@@ -117,7 +117,7 @@ impl View {
     /// Corners behind the light are cut off at a sixteenth of the centre's distance; half-extents are capped at a quarter of the map.
     ///
     /// # Errors
-    /// The place, when that alone settles the answer by this view's [`Rules`]: behind the light, or nearer or farther than the range under rules that do not compare there.
+    /// The place, when that alone settles the answer by this view's [`Rules`](crate::Rules): behind the light, or nearer or farther than the range under rules that do not compare there.
     #[inline(always)]
     pub fn receiver(&self, at: &SurfacePoint) -> Result<Receiver, Where> {
         let eye = self.world_to_eye.transform_point3(at.position.as_dvec3());
