@@ -6,10 +6,13 @@ use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
 ///
 /// Depths are in the kind of the map's view (C-4), grow away from the light, and are never NaN or −∞ (C-5).
 pub trait DepthMap: Sync {
+    /// True when texels hold more than one surface: [`DepthMap::passes`] then says more than a comparison with [`DepthMap::depth`].
+    const DEEP: bool = false;
+
     /// The light's view; it says what the depths mean.
     fn view(&self) -> &View;
 
-    /// The depth of a texel; +∞ where no surface is stored and everywhere outside the map.
+    /// The depth of a texel, of its nearest surface if there are several; +∞ where no surface is stored and everywhere outside the map.
     fn depth(&self, texel: IVec2) -> f32;
 
     /// The depths of the texels under sixteen positions (texel space). `within` encloses all of them that matter.
@@ -27,6 +30,21 @@ pub trait DepthMap: Sync {
     fn range(&self, rect: TexelRect) -> DepthRange {
         let _ = rect;
         DepthRange::UNKNOWN
+    }
+
+    /// The share of the light that passes all surfaces of a texel nearer than `depth`, in 0..=1; a surface at `depth` itself is not
+    /// nearer (C-7). 1 or 0 unless the map is [deep](DepthMap::DEEP).
+    #[inline(always)]
+    fn passes(&self, texel: IVec2, depth: f32) -> f32 {
+        if depth > self.depth(texel) { 0.0 } else { 1.0 }
+    }
+
+    /// The map as red, green and as blue light sees it; `None` where all light passes alike.
+    fn colours(&self) -> Option<[Self; 3]>
+    where
+        Self: Sized,
+    {
+        None
     }
 
     /// Bytes held for depths alone, 4 each, as Reeves' Table 2 counts them: without directories and rectangles.

@@ -127,6 +127,19 @@ struct Pixel {
     zeta: f32,
 }
 
+/// What one light's shadow says of a tile's regions.
+#[derive(Clone)]
+struct Answer {
+    fractions: Vec<f32>,
+    passes: Vec<Vec3>,
+}
+
+impl Answer {
+    fn lit(regions: usize) -> Self {
+        Self { fractions: vec![0.0; regions], passes: vec![Vec3::ONE; regions] }
+    }
+}
+
 struct TileOut {
     pixels: Vec<Pixel>,
     fragments: u64,
@@ -137,10 +150,12 @@ struct TileOut {
 fn finish_tile(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame, gather: &Gather, tile: UVec2) -> TileOut {
     let (regions, fragments, passing) = gather.tile(tile);
     let points: Vec<SurfacePoint> = regions.iter().map(|region| region.point).collect();
-    let mut fractions = vec![vec![0.0; points.len()]; scene.lights.len()];
-    for (light, (shadow, out)) in shadows.iter().zip(&mut fractions).enumerate() {
+    let mut answers: Vec<Answer> = vec![Answer::lit(points.len()); scene.lights.len()];
+    for (light, (shadow, answer)) in shadows.iter().zip(&mut answers).enumerate() {
         if scene.lights[light].casts {
-            shadow.fractions(&points, Key::new(frame.seed, frame.number, light as u32), out);
+            let key = Key::new(frame.seed, frame.number, light as u32);
+            shadow.fractions(&points, key, &mut answer.fractions);
+            shadow.transmittances(&points, key, &answer.fractions, &mut answer.passes);
         }
     }
     let mut pixels: Vec<Pixel> = Vec::new();
@@ -150,7 +165,7 @@ fn finish_tile(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame, gather: &G
             pixels.push(Pixel::new(region, lights));
         }
         if let Some(pixel) = pixels.last_mut() {
-            pixel.add(scene, region, &fractions, index);
+            pixel.add(scene, region, &answers, index);
         }
     }
     TileOut { pixels, fragments, passing, regions: regions.len() as u64 }
@@ -171,13 +186,14 @@ impl Pixel {
         }
     }
 
-    fn add(&mut self, scene: &Scene, region: &Region, fractions: &[Vec<f32>], index: usize) {
+    fn add(&mut self, scene: &Scene, region: &Region, answers: &[Answer], index: usize) {
         let receives = scene.objects[region.point.object as usize].receives;
-        let mut arrives = vec![Vec3::ONE; fractions.len()];
-        for (light, fraction) in fractions.iter().enumerate() {
-            let fraction = if receives { fraction[index] } else { 0.0 };
-            arrives[light] = Vec3::splat(1.0 - fraction);
-            self.shadow[light] += fraction * region.share;
+        let mut arrives = vec![Vec3::ONE; answers.len()];
+        for (light, answer) in answers.iter().enumerate() {
+            if receives {
+                arrives[light] = answer.passes[index];
+                self.shadow[light] += answer.fractions[index] * region.share;
+            }
             let toward = scene.lights[light].view.toward_eye(region.point.position.as_dvec3());
             self.facing[light] += region.point.normal.dot(toward.as_vec3()) * region.share;
         }

@@ -71,17 +71,20 @@ pub struct Object {
     pub receives: bool,
     /// True for the closed boundary of a solid, false for an open, two-sided surface.
     pub solid: bool,
+    /// Share of the light that passes one surface of it, linear RGB in 0..=1: 0 is opaque. Only deep maps and rays know of it;
+    /// a closed solid has two surfaces in the way.
+    pub passes: Vec3,
 }
 
 impl Object {
     /// A closed mesh that casts and receives.
     pub fn solid(name: &str, mesh: Mesh, material: Material) -> Self {
-        Self { name: name.into(), shape: Shape::Mesh(mesh), material, casts: true, receives: true, solid: true }
+        Self { name: name.into(), shape: Shape::Mesh(mesh), material, casts: true, receives: true, solid: true, passes: Vec3::ZERO }
     }
 
     /// An open, two-sided shape that casts and receives.
     pub fn two_sided(name: &str, shape: Shape, material: Material) -> Self {
-        Self { name: name.into(), shape, material, casts: true, receives: true, solid: false }
+        Self { name: name.into(), shape, material, casts: true, receives: true, solid: false, passes: Vec3::ZERO }
     }
 }
 

@@ -36,6 +36,7 @@ mod pcf;
 pub mod presets;
 mod probe;
 mod shadow;
+mod share;
 pub mod williams;
 
 pub use around::{Around, AroundError, Evaluate};

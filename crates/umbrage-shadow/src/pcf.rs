@@ -1,9 +1,9 @@
-use crate::depth::lane;
+use crate::share::share;
 use crate::{Biased, Filter, Probe, ReceiverDepth};
-use fearless_simd::{Simd, prelude::*};
+use fearless_simd::Simd;
 use umbrage_depth::DepthMap;
-use umbrage_plane::{Receiver, TexelRect, Verdict, View};
-use umbrage_sample::{Jittered, Key, Pattern, Taps};
+use umbrage_plane::{Receiver, TexelRect};
+use umbrage_sample::{Jittered, Key, Pattern};
 
 /// Percentage-closer filtering (Reeves, Salesin & Cook 1987, §2, §3.2 and Fig. 4; R87-9, R87-13).
 ///
@@ -47,8 +47,7 @@ impl<P: Pattern, D: ReceiverDepth> Filter for Pcf<P, D> {
         let view = map.view();
         let region = receiver.footprint.scaled(self.res_factor, self.min_size, view.size().as_vec2() * 0.25);
         let rect = TexelRect::around(region.centre, region.half);
-        let inside = view.holds(region.centre, region.half);
-        if self.cull && inside {
+        if self.cull && !M::DEEP && view.holds(region.centre, region.half) {
             let (stored, compared) = (map.range(rect), self.depth.bounds(view, receiver, rect));
             if compared.max <= stored.min {
                 probe.culled(false);
@@ -59,42 +58,6 @@ impl<P: Pattern, D: ReceiverDepth> Filter for Pcf<P, D> {
                 return 1.0;
             }
         }
-        let (mut hits, mut count, mut looked) = (0.0, 0.0, 0);
-        self.pattern.taps(simd, &region, key, |taps| {
-            let compared = self.depth.lanes(simd, view, receiver, taps);
-            let mut nearer = compared.simd_gt(map.look(simd, rect, taps.x, taps.y)).to_bitmask() as u32 & taps.mask;
-            if !inside {
-                nearer = by_rules(view, taps, nearer);
-            }
-            looked += taps.mask.count_ones();
-            if P::WEIGHTED {
-                for i in 0..16 {
-                    let weight = if taps.mask >> i & 1 == 1 { taps.weight[i] } else { 0.0 };
-                    count += weight;
-                    hits += if nearer >> i & 1 == 1 { weight } else { 0.0 };
-                }
-            } else {
-                count += taps.mask.count_ones() as f32;
-                hits += nearer.count_ones() as f32;
-            }
-        });
-        probe.looked(looked);
-        if count > 0.0 { hits / count } else { 0.0 }
+        share(simd, map, receiver, &region, (&self.pattern, &self.depth), key, probe)
     }
-}
-
-/// The hits of a batch of taps with those outside the map or the cone answered by the view's rules (spec C-10, W92-6).
-#[inline(always)]
-fn by_rules<S: Simd>(view: &View, taps: &Taps<S>, mut nearer: u32) -> u32 {
-    for i in 0..16 {
-        let bit = 1 << i;
-        if taps.mask & bit != 0 {
-            match view.rules().verdict(view.locate(lane(taps, i))) {
-                Verdict::Lit => nearer &= !bit,
-                Verdict::Shadowed => nearer |= bit,
-                Verdict::Compare => {}
-            }
-        }
-    }
-    nearer
 }

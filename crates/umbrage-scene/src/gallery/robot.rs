@@ -33,6 +33,7 @@ pub fn robot() -> Scene {
 
     let solid = |name: &str, patches: Vec<Patch>, diffuse: Vec3, specular: f32| Object {
         solid: true,
+        passes: Vec3::ZERO,
         ..Object::two_sided(
             name,
             Shape::Patches(patches),
