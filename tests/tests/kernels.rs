@@ -133,7 +133,7 @@ fn r87_19_r87_21_every_filter_answers_alike_over_every_storage() {
 }
 
 fn on_plane<P: Pattern>(pattern: P) -> Pcf<P, OnPlane> {
-    Pcf { pattern, depth: OnPlane { bias: Bias::Texels(0.5) }, res_factor: 1.0, min_size: 1.0, cull: true }
+    Pcf { pattern, depth: OnPlane::biased(Bias::Texels(0.5)), res_factor: 1.0, min_size: 1.0, cull: true }
 }
 
 #[test]
@@ -142,7 +142,7 @@ fn bounds_enclose_every_compared_depth() {
     let view = map.view();
     for (i, receiver) in receivers(&map, 2000).iter().enumerate() {
         let rect = umbrage_plane::TexelRect::around(receiver.footprint.centre, receiver.footprint.half);
-        let (plane, biased) = (OnPlane { bias: Bias::World(0.2) }, Biased::default());
+        let (plane, biased) = (OnPlane::biased(Bias::World(0.2)), Biased::default());
         let (on_plane, constant) = (plane.bounds(view, receiver, rect), biased.bounds(view, receiver, rect));
         dispatch!(Level::new(), simd => Jittered::default().taps(simd, &receiver.footprint, KEY.region(i as u32), |taps| {
             let (a, b) = (plane.lanes(simd, view, receiver, taps), biased.lanes(simd, view, receiver, taps));

@@ -9,6 +9,12 @@ pub trait DepthMap: Sync {
     /// True when texels hold more than one surface: [`DepthMap::passes`] then says more than a comparison with [`DepthMap::depth`].
     const DEEP: bool = false;
 
+    /// Whether this map is [deep](DepthMap::DEEP).
+    #[inline(always)]
+    fn is_deep(&self) -> bool {
+        Self::DEEP
+    }
+
     /// The light's view; it says what the depths mean.
     fn view(&self) -> &View;
 

@@ -22,6 +22,7 @@
 
 mod camera;
 mod lights;
+mod map;
 mod pass1;
 mod picture;
 mod planar;
@@ -31,6 +32,7 @@ mod shade;
 mod soup;
 
 pub use lights::{bind_lights, light_maps};
+pub use map::Map;
 pub use pass1::{Baked, advised_map_sizes, bake};
 pub use picture::{Frame, NOTHING, Picture, picture};
 pub use planar::{Ground, Planar};

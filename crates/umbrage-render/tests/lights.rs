@@ -26,9 +26,9 @@ fn r87_18_every_light_s_tree_chooses_its_own_shadow_or_none() {
     let shadow = |recipe: &str| Tree::Product(vec![Tree::colour(Vec3::ONE), Tree::Shadow { recipe: recipe.into() }]);
     scene.lights[0] = scene.lights[0].clone().with_tree(shadow("ordinary,bias=0.4"));
     scene.lights[1] = scene.lights[1].clone().with_tree(Tree::colour(Vec3::ONE));
-    let maps = light_maps(&scene);
-    assert_eq!(maps.iter().map(Option::is_some).collect::<Vec<_>>(), [true, false, true]);
     let default: Recipe = "reeves87,res-factor=8".parse().unwrap();
+    let maps = light_maps(&scene, &default).unwrap();
+    assert_eq!(maps.iter().map(Option::is_some).collect::<Vec<_>>(), [true, false, true]);
     let seen = shot(&scene, &bind_lights(&scene, &maps, &default, Storage::Tiled).unwrap());
     let levels = |light: usize| {
         let mut values: Vec<u32> = seen.shadow[light].iter().map(|s| s.to_bits()).collect();
@@ -55,7 +55,7 @@ fn w78_24_planar_projection_agrees_with_the_map_on_its_plane_and_shadows_nothing
     let light = scene.lights[0].view;
     let planar = Planar::new(&scene, &light, ground(), PLANE, 2048).unwrap();
     let flat = shot(&scene, &[Box::new(planar)]);
-    let maps = light_maps(&scene);
+    let maps = light_maps(&scene, &"ordinary".parse().unwrap()).unwrap();
     let mapped = shot(&scene, &[bind(presets::ordinary(Bias::World(0.6)), maps[0].as_ref().unwrap(), Storage::Raw)]);
     let dark = |picture: &Picture, object: u32| -> Vec<bool> {
         (0..picture.object.len()).map(|i| picture.object[i] == object && picture.shadow[0][i] > 0.5).collect()

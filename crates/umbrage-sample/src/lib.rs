@@ -8,6 +8,7 @@
 //! |---|---|---|
 //! | [`Centre`] | Reeves 1987, Fig. 6a | one, at the centre |
 //! | [`EveryTexel`] | Reeves 1987, Fig. 2 | every texel, exhaustively |
+//! | [`Tent`] | Wang & Molnar 1994 | every texel, weighted by nearness |
 //! | [`Uniform`], [`Gaussian`] | Reeves 1987, Fig. 3a, 3b | random in the bounding box |
 //! | [`Jittered`] | Reeves 1987, Fig. 3c and 4 | one in each cell of a grid over the box: the default |
 //! | [`InsideQuadReject`], [`InsideQuadWarp`] | Reeves 1987, Fig. 3d | inside the region's quadrilateral |
@@ -39,6 +40,7 @@ mod inside_quad;
 mod jittered;
 mod key;
 mod taps;
+mod tent;
 mod uniform;
 
 pub use centre::Centre;
@@ -49,4 +51,5 @@ pub use inside_quad::{InsideQuadReject, InsideQuadWarp};
 pub use jittered::Jittered;
 pub use key::Key;
 pub use taps::{Pattern, Tap, Taps, each_tap};
+pub use tent::Tent;
 pub use uniform::Uniform;

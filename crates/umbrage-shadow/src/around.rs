@@ -141,27 +141,33 @@ struct Face<'a, M> {
 }
 
 impl<M: DepthMap> Face<'_, M> {
-    /// What the neighbour stores in the direction of a texel outside, as this view would store it.
-    fn beyond(&self, texel: IVec2) -> f32 {
+    /// The neighbour and its texel in the direction of a texel outside, and by what its depths are multiplied to be this view's.
+    fn beyond(&self, texel: IVec2) -> Option<(&M, IVec2, f32)> {
         let view: &View = self.view();
         let eye = view.light().truncate();
         let direction = view.world_at(view.sampling().position(texel), view.key(1.0)) - eye;
         let other = nearest(self.maps, direction);
         if other == self.own {
-            return f32::INFINITY;
+            return None;
         }
         let map = &self.maps[other];
         let there = map.view();
         let seen = there.world_to_eye().transform_vector3(direction);
-        let depth = map.depth(there.eye_to_texel(seen).floor().as_ivec2());
-        match view.kind() {
-            Kind::Axial => depth * (view.ahead().dot(direction) / there.ahead().dot(direction)) as f32,
-            Kind::Radial | Kind::Screen => depth,
-        }
+        let scale = match view.kind() {
+            Kind::Axial => (view.ahead().dot(direction) / there.ahead().dot(direction)) as f32,
+            Kind::Radial | Kind::Screen => 1.0,
+        };
+        Some((map, there.eye_to_texel(seen).floor().as_ivec2(), scale))
+    }
+
+    fn inside(&self, texel: IVec2) -> bool {
+        TexelRect::of_size(self.view().size()).contains(texel)
     }
 }
 
 impl<M: DepthMap> DepthMap for Face<'_, M> {
+    const DEEP: bool = M::DEEP;
+
     #[inline(always)]
     fn view(&self) -> &View {
         self.maps[self.own].view()
@@ -169,10 +175,19 @@ impl<M: DepthMap> DepthMap for Face<'_, M> {
 
     #[inline(always)]
     fn depth(&self, texel: IVec2) -> f32 {
-        if TexelRect::of_size(self.view().size()).contains(texel) {
+        if self.inside(texel) {
             self.maps[self.own].depth(texel)
         } else {
-            self.beyond(texel)
+            self.beyond(texel).map_or(f32::INFINITY, |(map, texel, scale)| map.depth(texel) * scale)
+        }
+    }
+
+    #[inline(always)]
+    fn passes(&self, texel: IVec2, depth: f32) -> f32 {
+        if self.inside(texel) {
+            self.maps[self.own].passes(texel, depth)
+        } else {
+            self.beyond(texel).map_or(1.0, |(map, texel, scale)| map.passes(texel, depth / scale))
         }
     }
 

@@ -28,8 +28,11 @@
 
 mod around;
 pub mod as_printed;
+mod conditional;
+mod cone;
 mod depth;
 mod filter;
+mod integer_first;
 mod lat_long;
 mod ordinary;
 mod pcf;
@@ -37,14 +40,19 @@ pub mod presets;
 mod probe;
 mod shadow;
 mod share;
+mod soft;
 pub mod williams;
 
 pub use around::{Around, AroundError, Evaluate};
+pub use conditional::{Conditional, VirtualWhen};
+pub use cone::{Cone, Radius};
 pub use depth::{Biased, OnPlane, ReceiverDepth, Spread};
 pub use filter::{Filter, filter};
+pub use integer_first::{IntegerFirst, behind, whole};
 pub use lat_long::{LatLong, LatLongError};
 pub use ordinary::Ordinary;
 pub use pcf::Pcf;
 pub use probe::{Counters, Probe};
 pub use shadow::{Shadow, ShadowMap, Unshadowed};
+pub use soft::{Extent, Falloff, Opacity, Soft, Softness, factor};
 pub use williams::Williams;

@@ -47,7 +47,7 @@ impl<P: Pattern, D: ReceiverDepth> Filter for Pcf<P, D> {
         let view = map.view();
         let region = receiver.footprint.scaled(self.res_factor, self.min_size, view.size().as_vec2() * 0.25);
         let rect = TexelRect::around(region.centre, region.half);
-        if self.cull && !M::DEEP && view.holds(region.centre, region.half) {
+        if self.cull && !map.is_deep() && view.holds(region.centre, region.half) {
             let (stored, compared) = (map.range(rect), self.depth.bounds(view, receiver, rect));
             if compared.max <= stored.min {
                 probe.culled(false);

@@ -1,9 +1,9 @@
 //! Each paper as one short choice of parts.
 
 use crate::williams::{Dither, Lookup, Williams};
-use crate::{Biased, Pcf};
+use crate::{Biased, Conditional, Falloff, Pcf, Soft};
 use umbrage_plane::Bias;
-use umbrage_sample::{Centre, Jittered};
+use umbrage_sample::{Centre, Density, Disc, Jittered};
 
 /// Williams 1978: nearest texel, no dither, two quanta of 16-bit depth (W78-2, W78-11, W78-12).
 ///
@@ -25,4 +25,28 @@ pub fn reeves87_recommended() -> Pcf {
 /// The ordinary depth buffer of Reeves' Figure 6a: one sample at the centre, no jitter, nearest texel (R87-15).
 pub fn ordinary(bias: Bias) -> Pcf<Centre> {
     Pcf { pattern: Centre, depth: Biased::constant(bias), res_factor: 0.0, min_size: 0.0, cull: true }
+}
+
+/// Woo 1992: the listing of 1987 without any bias, over a map of midpoints (W92-3, W92-5, W92-8).
+///
+/// Meant for a spot light with [`Rules::SPOT`](umbrage_plane::Rules::SPOT), which are Woo's rule of the cone (W92-6); the paper's map is 256² under 75°.
+pub fn woo92() -> Pcf {
+    Pcf { depth: Biased::constant(Bias::ZERO), ..Pcf::default() }
+}
+
+/// Wang & Molnar 1994: the nearest four texels of a map of second surfaces, the tangent plane where they disagree, no bias (WM94-5 to WM94-15).
+pub fn wang_molnar94() -> Conditional {
+    Conditional::default()
+}
+
+/// Burley 2006: soft shadows from one map with the bias cone (B06-1 to B06-8).
+pub fn burley() -> Soft {
+    Soft::default()
+}
+
+/// Fernando 2005, as Burley describes it: search taps spread evenly, their plain mean, a constant bias (B06-9).
+pub fn fernando(bias: Bias) -> Soft<Biased> {
+    let Soft { softness, search, blur, radius_gamma, opacity, rescue, .. } = burley();
+    let search = Disc { density: Density::Uniform, ..search };
+    Soft { softness, search, blur, falloff: Falloff::Flat, depth: Biased::constant(bias), radius_gamma, opacity, rescue }
 }

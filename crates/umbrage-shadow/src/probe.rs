@@ -17,6 +17,14 @@ pub trait Probe {
     fn looked(&mut self, texels: u32) {
         let _ = texels;
     }
+    /// A region that was compared on its tangent plane (WM94-15).
+    #[inline(always)]
+    fn virtual_sampled(&mut self) {}
+    /// A comparison by whole units first; `conclusive` when they settled it (W92-7).
+    #[inline(always)]
+    fn compared(&mut self, conclusive: bool) {
+        let _ = conclusive;
+    }
 }
 
 impl Probe for () {}
@@ -34,6 +42,12 @@ pub struct Counters {
     pub sampled: u64,
     /// Texels read.
     pub lookups: u64,
+    /// Regions compared on their tangent plane.
+    pub virtual_sampled: u64,
+    /// Comparisons that whole units settled.
+    pub conclusive: u64,
+    /// Comparisons that needed the fraction too.
+    pub inconclusive: u64,
 }
 
 impl Counters {
@@ -46,6 +60,9 @@ impl Counters {
             culled_dark: self.culled_dark + other.culled_dark,
             sampled: self.sampled + other.sampled,
             lookups: self.lookups + other.lookups,
+            virtual_sampled: self.virtual_sampled + other.virtual_sampled,
+            conclusive: self.conclusive + other.conclusive,
+            inconclusive: self.inconclusive + other.inconclusive,
         }
     }
 }
@@ -60,5 +77,11 @@ impl Probe for Counters {
     fn looked(&mut self, texels: u32) {
         self.sampled += 1;
         self.lookups += u64::from(texels);
+    }
+    fn virtual_sampled(&mut self) {
+        self.virtual_sampled += 1;
+    }
+    fn compared(&mut self, conclusive: bool) {
+        *(if conclusive { &mut self.conclusive } else { &mut self.inconclusive }) += 1;
     }
 }

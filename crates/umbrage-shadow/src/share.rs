@@ -25,7 +25,7 @@ pub(crate) fn share<S: Simd, M: DepthMap, P: Pattern, D: ReceiverDepth, Q: Probe
     pattern.taps(simd, region, key, |taps| {
         let compared = depth.lanes(simd, view, receiver, taps);
         looked += taps.mask.count_ones();
-        if M::DEEP {
+        if map.is_deep() {
             let (column, row) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
             for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
                 let weight = if P::WEIGHTED { taps.weight[i] } else { 1.0 };

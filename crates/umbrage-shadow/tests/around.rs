@@ -87,7 +87,7 @@ fn t_16_virtual_samples_cross_cube_seams() {
         if along > 0.01 { 10.0 / along } else { f64::INFINITY }
     };
     let maps = cube(256, Kind::Radial, wall);
-    let depth = umbrage_shadow::OnPlane { bias: Bias::World(0.12) };
+    let depth = umbrage_shadow::OnPlane::biased(Bias::World(0.12));
     let filter = Pcf { pattern: Uniform { num_samples: 64 }, depth, res_factor: 1.0, min_size: 0.0, cull: true };
     let around = Around::new(filter, maps).unwrap();
     let normal = DVec3::new(1.0, 0.0, 1.0).normalize();

@@ -304,7 +304,7 @@ fn r87_22_culling_changes_no_bit() {
             let centre = Vec2::new(key.unit(0, 0), key.unit(0, 1)) * 140.0 - 6.0;
             let region = receiver(&lamp(128), 8.8 + 2.5 * key.unit(0, 2), centre, Vec2::splat(half));
             let constant = Pcf { res_factor: 1.0, ..Pcf::default() };
-            let depth = OnPlane { bias: Bias::World(0.1) };
+            let depth = OnPlane::biased(Bias::World(0.1));
             let plane = Pcf { pattern: constant.pattern, depth, res_factor: 1.0, min_size: 0.0, cull: true };
             let pairs = [
                 (

@@ -102,7 +102,7 @@ fn table(cx: &Context) -> anyhow::Result<Made> {
     };
     let on_plane = |pattern| Pcf {
         pattern,
-        depth: OnPlane { bias: Bias::World(0.02) },
+        depth: OnPlane::biased(Bias::World(0.02)),
         res_factor: 3.0,
         min_size: 0.0,
         cull: true,

@@ -26,7 +26,7 @@ pub const F1: Figure = Figure {
 /// Reeves' filter against the tangent plane: regions as large as those seen from far off need no larger bias then (R87-13).
 fn on_plane() -> Pcf<Jittered, OnPlane> {
     Pcf {
-        depth: OnPlane { bias: Bias::World(0.35) },
+        depth: OnPlane::biased(Bias::World(0.35)),
         pattern: Jittered::default(),
         res_factor: 3.0,
         min_size: 0.0,

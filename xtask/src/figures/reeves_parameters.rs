@@ -324,7 +324,7 @@ fn float(cx: &Context) -> anyhow::Result<Made> {
     let (whole_b, float_b) = shots(Bias::World(0.35));
     // Against the tangent plane at the very texel that is read no look-up error is left: what remains is the depth's own step.
     let on_plane = |map: &Tiled| {
-        let quarter = OnPlane { bias: Bias::Map(0.25 / 65_535.0) };
+        let quarter = OnPlane::biased(Bias::Map(0.25 / 65_535.0));
         let filter = Pcf { pattern: Centre, depth: quarter, res_factor: 0.0, min_size: 0.0, cull: true };
         set.shoot_map(cx, filter, map, &Frame::CENTRES)
     };

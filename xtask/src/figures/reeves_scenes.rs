@@ -28,7 +28,7 @@ fn classes(picture: &Picture) -> [f64; 8] {
 }
 
 fn coloured(cx: &Context) -> anyhow::Result<Made> {
-    let stage = Stage::new(gallery::three_lights(), cx.pick(1024, 256), cx.pick(1, 2));
+    let stage = Stage::new(gallery::three_lights(), cx.pick(1024, 256), cx.pick(1, 2))?;
     let recipe = "reeves87,bias=0.3..0.4";
     let picture = stage.shoot(cx, recipe, &Frame::default())?;
     let truth = stage.truth(cx, &Frame::default());
@@ -107,7 +107,7 @@ pub const F12: Figure = Figure {
 };
 
 fn desk_lamps(cx: &Context) -> anyhow::Result<Made> {
-    let stage = Stage::new(gallery::desk_lamps(), cx.pick(768, 256), cx.pick(1, 4));
+    let stage = Stage::new(gallery::desk_lamps(), cx.pick(768, 256), cx.pick(1, 4))?;
     let frame = Frame::default();
     let jittered = stage.shoot(cx, RECIPE, &frame)?;
     let uniform = stage.shoot(cx, &format!("{RECIPE},pattern=uniform"), &frame)?;
@@ -156,7 +156,7 @@ pub const F13: Figure = Figure {
 };
 
 fn lamp_maps(cx: &Context) -> anyhow::Result<Made> {
-    let stage = Stage::new(gallery::desk_lamps(), 64, cx.pick(1, 4));
+    let stage = Stage::new(gallery::desk_lamps(), 64, cx.pick(1, 4))?;
     let mut grounded = stage.scene.clone();
     // What receives and does not cast is the ground.
     for object in &mut grounded.objects {
@@ -166,7 +166,7 @@ fn lamp_maps(cx: &Context) -> anyhow::Result<Made> {
     let (mut there, mut wrong, mut unordered) = (0u64, 0u64, 0u64);
     for (light, map) in stage.scene.lights.iter().zip(&stage.maps) {
         let Some(map) = map else { continue };
-        let raw = Raw::from(map);
+        let raw = Raw::copy_of(map);
         let grey = umbrage_io::depth_view(&raw);
         let with =
             Raw::from(&bake(&light.view, Soup::casters(&grounded, &light.view).triangles(), &First, Cull::None).map);
@@ -198,7 +198,7 @@ pub const F14: Figure = Figure {
 };
 
 fn shop(cx: &Context) -> anyhow::Result<Made> {
-    let stage = Stage::new(gallery::bicycle_shop(), cx.pick(1024, 256), cx.pick(1, 2));
+    let stage = Stage::new(gallery::bicycle_shop(), cx.pick(1024, 256), cx.pick(1, 2))?;
     let frame = Frame::default();
     let picture = stage.shoot(cx, RECIPE, &frame)?;
     let plain = stage.plain(cx, &frame);

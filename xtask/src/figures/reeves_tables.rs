@@ -8,7 +8,7 @@ use std::sync::Mutex;
 use std::time::Instant;
 use umbrage_depth::{Bbox, DepthMap, Raw, Tiled};
 use umbrage_plane::{SurfacePoint, TexelRect};
-use umbrage_render::{Frame, bind_lights, light_maps, picture};
+use umbrage_render::{Frame, Map, bind_lights, light_maps, picture};
 use umbrage_sample::Key;
 use umbrage_scene::{Scene, gallery};
 use umbrage_shadow::Shadow;
@@ -109,9 +109,11 @@ fn measure(cx: &Context, stage: &Stage) -> anyhow::Result<Times> {
     // Once to warm up; then the better of two, as other work may be going on.
     picture(scene, &[], &frame);
     let plain = timed(|| picture(scene, &[], &frame)).1.min(timed(|| picture(scene, &[], &frame)).1);
-    let (maps, pass_1) = timed(|| light_maps(scene));
+    let recipe = "reeves87".parse()?;
+    let (maps, pass_1) = timed(|| light_maps(scene, &recipe));
+    let maps = maps?;
     // The listing as it is printed, corrected: what the paper's table is about.
-    let shadows = bind_lights(scene, &maps, &"reeves87".parse()?, cx.storage)?;
+    let shadows = bind_lights(scene, &maps, &recipe, cx.storage)?;
     let shadows: Vec<&dyn Shadow> = shadows.iter().map(AsRef::as_ref).collect();
     let pass_2 = timed(|| picture(scene, &shadows, &frame)).1.min(timed(|| picture(scene, &shadows, &frame)).1);
     let asked = Regions::default();
@@ -142,7 +144,7 @@ fn times(cx: &Context) -> anyhow::Result<Made> {
     let mut made = Made::default();
     let mut rows = Vec::new();
     for row in &ROWS {
-        let stage = Stage::new((row.scene)(), cx.pick(1024, 192), cx.pick(1, 4));
+        let stage = Stage::new((row.scene)(), cx.pick(1024, 192), cx.pick(1, 4))?;
         let casting = stage.maps.iter().flatten().count();
         let measured = pool.install(|| measure(cx, &stage))?;
         let share = measured.breakdown();
@@ -213,9 +215,9 @@ fn storage(cx: &Context) -> anyhow::Result<Made> {
     // Compact: about alike. Scattered: tiles win. Everywhere: between.
     let bounds = [(0.85, 1.25), (0.85, 1.25), (0.0, 0.5), (0.5, 0.95)];
     for (row, (low, high)) in ROWS.iter().zip(bounds) {
-        let stage = Stage::new((row.scene)(), 64, 1);
-        let maps: Vec<&Tiled> = stage.maps.iter().flatten().collect();
-        let raws: Vec<Raw> = maps.iter().map(|map| Raw::from(*map)).collect();
+        let stage = Stage::new((row.scene)(), 64, 1)?;
+        let maps: Vec<&Map> = stage.maps.iter().flatten().collect();
+        let raws: Vec<Raw> = maps.iter().map(|map| Raw::copy_of(*map)).collect();
         let sum =
             |bytes: &dyn Fn(usize) -> usize| (0..maps.len()).map(bytes).sum::<usize>() as f64 / f64::from(1 << 20);
         let found = [sum(&|i| raws[i].bytes()), sum(&|i| Bbox::from(&raws[i]).bytes()), sum(&|i| maps[i].bytes())];

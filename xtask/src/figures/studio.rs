@@ -9,7 +9,7 @@ use umbrage_oracle::metrics::{self, Grid};
 use umbrage_oracle::{Diagnostic, Geometry, Plan, RayCast, Truth, diagnose, heat};
 use umbrage_plane::{Kind, Sampling, View};
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Picture, Soup, bake, bind, bind_lights, light_maps, picture};
+use umbrage_render::{Frame, Map, Picture, Recipe, Soup, bake, bind, bind_lights, light_maps, picture};
 use umbrage_scene::{Light, Scene};
 use umbrage_shadow::{Filter, Shadow, Unshadowed};
 
@@ -50,12 +50,20 @@ impl Set {
         self.draw(cx, &*shadow, frame)
     }
 
+    /// The picture with light 0's shadow by a recipe, over the map that the recipe wants.
+    pub fn by(&self, cx: &Context, recipe: &str, frame: &Frame) -> anyhow::Result<Picture> {
+        let recipe: Recipe = recipe.parse()?;
+        let map = recipe.bake(&self.scene, &self.scene.lights[0].view);
+        Ok(self.draw(cx, &*recipe.bind(map, cx.storage), frame))
+    }
+
     /// The picture without any shadow.
     pub fn plain(&self, cx: &Context, frame: &Frame) -> Picture {
         self.draw(cx, &Unshadowed, frame)
     }
 
-    fn draw(&self, cx: &Context, shadow: &dyn Shadow, frame: &Frame) -> Picture {
+    /// The picture with any shadow.
+    pub fn draw(&self, cx: &Context, shadow: &dyn Shadow, frame: &Frame) -> Picture {
         picture(&self.scene, &[shadow], &Frame { seed: cx.seed, ..*frame })
     }
 
@@ -94,18 +102,18 @@ impl Set {
 /// A scene of several lights: each has its map, and its shadow by the recipe of its own tree or by the figure's.
 pub struct Stage {
     pub scene: Scene,
-    pub maps: Vec<Option<Tiled>>,
+    pub maps: Vec<Option<Map>>,
 }
 
 impl Stage {
     /// `pixels` across the camera's picture; the lights' maps keep their sizes, divided by `coarser`.
-    pub fn new(mut scene: Scene, pixels: u32, coarser: u32) -> Self {
+    pub fn new(mut scene: Scene, pixels: u32, coarser: u32) -> anyhow::Result<Self> {
         scene.camera = sized(&scene.camera, pixels);
         for light in &mut scene.lights {
             light.view = sized(&light.view, (light.view.size().x / coarser).max(1));
         }
-        let maps = light_maps(&scene);
-        Self { scene, maps }
+        let maps = light_maps(&scene, &"reeves87".parse()?)?;
+        Ok(Self { scene, maps })
     }
 
     /// The picture with every light's shadow.

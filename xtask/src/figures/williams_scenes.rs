@@ -47,7 +47,7 @@ fn named(scene: &Scene, word: &str) -> Vec<u32> {
 }
 
 fn smile(cx: &Context) -> anyhow::Result<Made> {
-    let stage = Stage::new(gallery::smile(), cx.pick(768, 256), 1);
+    let stage = Stage::new(gallery::smile(), cx.pick(768, 256), 1)?;
     let picture = stage.shoot(cx, RECIPE, &Frame::default())?;
     let truth = stage.truth(cx, &Frame::default());
     let is_patches = |id: u32| matches!(stage.scene.objects[id as usize].shape, Shape::Patches(_));
@@ -112,7 +112,7 @@ fn off_at_seam(ours: &Picture, truth: &Picture, seam: &[(usize, usize)]) -> Opti
 }
 
 fn robot(cx: &Context) -> anyhow::Result<Made> {
-    let stage = Stage::new(gallery::robot(), cx.pick(768, 256), 1);
+    let stage = Stage::new(gallery::robot(), cx.pick(768, 256), 1)?;
     let scene = &stage.scene;
     let picture = stage.shoot(cx, RECIPE, &Frame::default())?;
     let truth = stage.truth(cx, &Frame::default());
@@ -293,7 +293,7 @@ pub const PLANE: Figure = Figure {
 };
 
 fn plane(cx: &Context) -> anyhow::Result<Made> {
-    let stage = Stage::new(gallery::teapot(), cx.pick(512, 192), 1);
+    let stage = Stage::new(gallery::teapot(), cx.pick(512, 192), 1)?;
     let scene = &stage.scene;
     let slab = named(scene, "slab")[0];
     let light = scene.lights[0].view;

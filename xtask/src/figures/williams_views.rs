@@ -120,7 +120,7 @@ pub const TEAPOT: Figure = Figure {
 
 fn teapot(cx: &Context) -> anyhow::Result<Made> {
     let set = Set::new(gallery::teapot(), cx.pick(768, 256), 1024);
-    let depth = OnPlane { bias: Bias::World(0.3) };
+    let depth = OnPlane::biased(Bias::World(0.3));
     let Pcf { pattern, res_factor, min_size, cull, .. } = presets::reeves87_recommended();
     let pattern = Jittered { num_samples: 64, ..pattern };
     let picture = set.shoot(cx, Pcf { pattern, depth, res_factor, min_size, cull }, &Frame::default());

@@ -1,7 +1,4 @@
-//! What the printed listings do, misprints included, for the errata figures and their tests only (spec C-8).
-//!
-//! Reeves, Salesin & Cook 1987, Fig. 4 (errata E-R1 to E-R21). The behaviour is reproduced, not the scan's garble, and
-//! never a panic or a division by zero: where the listing divides by zero the guards of E-R6 answer.
+//! Reeves, Salesin & Cook 1987, Fig. 4 (errata E-R1 to E-R21). Where the listing divides by zero the guards of E-R6 answer.
 //!
 //! What only concerns the language is Rust's here: garbled declarations (E-R1), `floor` and `ceil` declared without their type
 //! (E-R2), a bitwise `|` between truth values (E-R11), the order of the array's indices (E-R20). The cull's inclusive rectangle with

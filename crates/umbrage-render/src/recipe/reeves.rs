@@ -1,0 +1,128 @@
+//! Percentage-closer recipes: Reeves' and Woo's.
+
+use super::depth::{Choice, Depth};
+use super::values::{count, number, one_of, share, switch};
+use super::{RecipeError, Set, over};
+use crate::Map;
+use umbrage_plane::Bias;
+use umbrage_sample::{
+    Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Pattern, Tent, Uniform,
+};
+use umbrage_shadow::{Biased, IntegerFirst, Pcf, ReceiverDepth, Shadow};
+
+pub const FIELDS: &str = "stored, ratio, merge, pattern, samples, min-samples, jitter, hard-cap, compare, res-factor, min-size, bias, spread, depth, slope, radius or slack";
+
+/// The named parts of a percentage-closer recipe.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reeves {
+    pub pattern: PatternName,
+    pub depth: Depth,
+    pub integer_first: bool,
+    /// Its own depth is not used.
+    pub pcf: Pcf,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PatternName {
+    Jittered,
+    Uniform,
+    Gaussian,
+    Inside,
+    Warp,
+    Every,
+    Tent,
+    Centre,
+    Disc,
+}
+
+pub const PATTERNS: &[(&str, PatternName)] = &[
+    ("jittered", PatternName::Jittered),
+    ("uniform", PatternName::Uniform),
+    ("gaussian", PatternName::Gaussian),
+    ("inside", PatternName::Inside),
+    ("warp", PatternName::Warp),
+    ("every", PatternName::Every),
+    ("tent", PatternName::Tent),
+    ("centre", PatternName::Centre),
+    ("disc", PatternName::Disc),
+];
+
+impl Reeves {
+    pub fn new(pcf: Pcf) -> Self {
+        let depth = Depth::new(Choice::Constant, pcf.depth);
+        let pcf = Pcf { depth: Biased::default(), ..pcf };
+        Self { pattern: PatternName::Jittered, depth, integer_first: false, pcf }
+    }
+
+    pub fn set(&mut self, field: &str, value: &str) -> Set {
+        match field {
+            "pattern" => {
+                let expected = "jittered, uniform, gaussian, inside, warp, every, tent, centre or disc";
+                self.pattern = one_of(field, value, PATTERNS, expected)?;
+            }
+            "samples" => self.pcf.pattern.num_samples = count(field, value)?,
+            "min-samples" => self.pcf.pattern.min_samples = count(field, value)?,
+            "res-factor" => self.pcf.res_factor = number(field, value)?,
+            "min-size" => self.pcf.min_size = number(field, value)?,
+            "jitter" => self.pcf.pattern.jitter = share(field, value)?,
+            "hard-cap" => self.pcf.pattern.hard_cap = switch(field, value)?,
+            "compare" => {
+                self.integer_first = one_of(field, value, &[("float", false), ("integer", true)], "float or integer")?;
+            }
+            _ => return self.depth.set(field, value),
+        }
+        Ok(true)
+    }
+
+    /// What only all fields together can show.
+    pub fn check(&self) -> Result<(), RecipeError> {
+        let Jittered { num_samples, min_samples, .. } = self.pcf.pattern;
+        if min_samples > num_samples {
+            return Err(RecipeError::value("min-samples", &min_samples.to_string(), "at most samples"));
+        }
+        let plain = self.pattern == PatternName::Jittered && self.depth.biased == Biased::constant(Bias::ZERO);
+        if self.integer_first && !(plain && self.depth.choice == Choice::Constant) {
+            return Err(RecipeError::value(
+                "compare",
+                "integer",
+                "float, unless pattern=jittered, depth=constant, bias=0",
+            ));
+        }
+        self.depth.check()
+    }
+
+    pub fn bind(self, map: Map) -> Box<dyn Shadow> {
+        let Pcf { pattern, res_factor, min_size, .. } = self.pcf;
+        if self.integer_first {
+            return over(IntegerFirst { pattern, res_factor, min_size, unit: 1.0 }, map);
+        }
+        match self.depth.choice {
+            Choice::Constant => self.with_depth(self.depth.biased, map),
+            Choice::Plane => self.with_depth(self.depth.plane(), map),
+            Choice::Cone => self.with_depth(self.depth.cone(), map),
+        }
+    }
+
+    fn with_depth<D: ReceiverDepth + 'static>(self, depth: D, map: Map) -> Box<dyn Shadow> {
+        let num_samples = self.pcf.pattern.num_samples;
+        match self.pattern {
+            PatternName::Jittered => self.with(self.pcf.pattern, depth, map),
+            PatternName::Uniform => self.with(Uniform { num_samples }, depth, map),
+            PatternName::Gaussian => self.with(Gaussian { num_samples }, depth, map),
+            PatternName::Inside => self.with(InsideQuadReject(self.pcf.pattern), depth, map),
+            PatternName::Warp => self.with(InsideQuadWarp(self.pcf.pattern), depth, map),
+            PatternName::Every => self.with(EveryTexel, depth, map),
+            PatternName::Tent => self.with(Tent, depth, map),
+            PatternName::Centre => self.with(Centre, depth, map),
+            PatternName::Disc => {
+                let disc = Disc { num_samples, density: Density::Uniform, ..Disc::default() };
+                self.with(disc, depth, map)
+            }
+        }
+    }
+
+    fn with<P: Pattern + 'static, D: ReceiverDepth + 'static>(self, pattern: P, depth: D, map: Map) -> Box<dyn Shadow> {
+        let Pcf { res_factor, min_size, cull, .. } = self.pcf;
+        over(Pcf { pattern, depth, res_factor, min_size, cull }, map)
+    }
+}

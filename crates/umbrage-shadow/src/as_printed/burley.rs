@@ -1,0 +1,96 @@
+//! Burley's note of 2006 on the bias cone and on soft shadows (errata E-B1 to E-B9).
+
+use glam::{IVec2, Vec2, Vec3};
+use umbrage_depth::DepthMap;
+use umbrage_sample::hammersley;
+
+/// The listing's parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BurleyListing {
+    /// `baseBias`, added to the receiver's depth: a negative one moves it toward the light (E-B1).
+    pub base: f32,
+    /// `biasSlope`, depth per unit of the map; the note sets it to 1 (E-B5, E-B6).
+    pub slope: f32,
+    /// Samples of each pass; the listing does not say how many (E-B7).
+    pub samples: u32,
+}
+
+impl Default for BurleyListing {
+    /// No base, the note's slope of 1, 32 samples.
+    fn default() -> Self {
+        Self { base: 0.0, slope: 1.0, samples: 32 }
+    }
+}
+
+impl BurleyListing {
+    /// `sample.z`: the receiver's depth *plus* the bias, so that a positive bias shadows more, not less (E-B1, V62).
+    pub fn compared(&self, depth: f32, radius: f32) -> f32 {
+        depth + self.base + self.slope * radius
+    }
+
+    /// Samples around a point of the map, within `radius` texels; radius by `shape` of the second Hammersley number. Without rotation and
+    /// offset, the first lies on the point itself (E-B8).
+    fn around<'a, M: DepthMap>(
+        &'a self,
+        map: &'a M,
+        point: Vec2,
+        radius: f32,
+        shape: impl Fn(f32) -> f32 + 'a,
+    ) -> impl Iterator<Item = Sample> + 'a {
+        let count = self.samples.max(1);
+        (0..count).map(move |index| {
+            let unit = hammersley(index, count);
+            let radius = shape(unit.y) * radius;
+            let at: IVec2 = (point + Vec2::from_angle(unit.x * std::f32::consts::TAU) * radius).floor().as_ivec2();
+            Sample { radius, depth: map.depth(at) }
+        })
+    }
+}
+
+/// One texel that is looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Distance of the sample from the point, in the unit of the search radius.
+    pub radius: f32,
+    /// The map's depth there.
+    pub depth: f32,
+}
+
+/// `sampleDepth`: the weighted mean depth of the occluders, and 0 for none, which a depth may be as well (E-B3).
+pub fn sample_depth(listing: &BurleyListing, depth: f32, search: f32, samples: impl IntoIterator<Item = Sample>) -> f32 {
+    let (mut sum, mut total) = (0.0, 0.0);
+    for sample in samples.into_iter().filter(|sample| sample.depth < listing.compared(depth, sample.radius)) {
+        let weight = 1.0 - 0.9 * (sample.radius / search);
+        sum += sample.depth * weight;
+        total += weight;
+    }
+    if total > 0.0 { sum / total } else { sum }
+}
+
+/// `sampleBlur`: the share of the samples that are nearer. The listing calls it without its point (E-B2); 0 without samples.
+pub fn sample_blur(listing: &BurleyListing, depth: f32, samples: impl IntoIterator<Item = Sample>) -> f32 {
+    let (mut occluded, mut count) = (0u32, 0u32);
+    for sample in samples {
+        occluded += u32::from(sample.depth < listing.compared(depth, sample.radius));
+        count += 1;
+    }
+    if count > 0 { occluded as f32 / count as f32 } else { 0.0 }
+}
+
+/// The blur's radius, not clamped: occluders behind the point, which E-B1 lets in, make it negative (E-B4, V64). A point at depth 0 has the radius `min`.
+pub fn soft_radius(min: f32, max: f32, occluder: f32, depth: f32) -> f32 {
+    if depth == 0.0 { min } else { min + (max - min) * (1.0 - occluder / depth) }
+}
+
+/// `softShadow` for a point at (x, y) texels and depth z of a map, radii in texels. Negative radii are looked up by their size (E-B4); without an
+/// occluder in the search the point is lit, whatever the blur would have met (E-B9).
+pub fn soft_shadow<M: DepthMap>(listing: &BurleyListing, map: &M, point: Vec3, min: f32, max: f32) -> f32 {
+    let at = point.truncate();
+    let occluder = sample_depth(listing, point.z, max, listing.around(map, at, max, |y| y));
+    if occluder > 0.0 {
+        let radius = soft_radius(min, max, occluder, point.z).abs();
+        sample_blur(listing, point.z, listing.around(map, at, radius, f32::sqrt))
+    } else {
+        0.0
+    }
+}

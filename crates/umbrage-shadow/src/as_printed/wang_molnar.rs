@@ -1,0 +1,32 @@
+//! Wang & Molnar 1994, Fig. 10 (errata E-M1 to E-M11).
+
+/// How the listing's last line divides (E-M2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Division {
+    /// As fractions, which is meant.
+    Float,
+    /// As the C of the listing reads: whole numbers, so that what is not all lit is dark.
+    Integer,
+}
+
+/// The fraction of a pixel that is *illuminated*, 1 lit: the listing returns the complement of a shadow (E-M9).
+///
+/// `second` holds the nearby samples of the depth map, +∞ for none, and `virtual_samples` the depths of the tangent plane at the same places;
+/// the shorter of both counts, and without any the pixel is dark. The counter begins at 0, as it must have (E-M1); virtual samples are compared by the
+/// printed `<`, so that a flat sheet shadows itself (E-M3); there is no bias (E-M7), and no rule for edge-on planes (E-M8). Where the counts
+/// come from, how many samples are near and what lies outside the map, the listing leaves open (E-M5, E-M6).
+pub fn percent_illumination(camera: f32, second: &[f32], virtual_samples: &[f32], division: Division) -> f32 {
+    let samples = second.len().min(virtual_samples.len());
+    let lit = second[..samples].iter().filter(|&&second| camera <= second).count();
+    if lit == 0 {
+        return 0.0;
+    }
+    if lit == samples {
+        return 1.0;
+    }
+    let lit = virtual_samples.iter().zip(second).filter(|(at, second)| at < second).count();
+    match division {
+        Division::Float => lit as f32 / samples as f32,
+        Division::Integer => (lit / samples) as f32,
+    }
+}

@@ -1,0 +1,93 @@
+use crate::share::share;
+use crate::{Biased, Filter, OnPlane, Probe};
+use fearless_simd::Simd;
+use umbrage_depth::DepthMap;
+use umbrage_plane::Receiver;
+use umbrage_sample::{EveryTexel, Key, Pattern};
+
+/// When the tangent plane is asked (Wang & Molnar 1994; WM94-15).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum VirtualWhen {
+    /// Where the texels disagree about the receiver's own depth. The paper's rule.
+    #[default]
+    Mixed,
+    /// Everywhere: fails on curved surfaces nearly edge-on to the light, whose plane climbs past its occluders (Fig. 9).
+    Always,
+    /// Nowhere: plain comparison.
+    Never,
+}
+
+/// Wang & Molnar's rule for a map of second surfaces: texels that agree about the receiver's depth settle it, and where they do not,
+/// the receiver's tangent plane is compared at each of them instead (Wang & Molnar 1994, §3 and Fig. 10; WM94-4 to WM94-15).
+///
+/// The nearby texels are those of `pattern` over the receiver's region times `res_factor`, of at least `min_size` half-extent. With
+/// [`EveryTexel`]: 0 and 1 are the nearest four, 0 and n/2 a box of n × n, 1 and 1 the region's own, at least 2 × 2 (WM94-6).
+/// [`Tent`](umbrage_sample::Tent) weighs them by nearness.
+///
+/// Departures from the printed listing, by the errata of [`as_printed`](crate::as_printed): (1) counts begin at 0 and are divided as
+/// fractions (E-M1, E-M2); (2) equality is lit at virtual samples too, within their rounding (E-M3, WM94-12); (3) places outside the map answer by
+/// the view's rules (E-M6); (4) there is a bias, of 0 (E-M7, WM94-13); (5) planes that nearly hold the light's ray fall back on plain comparison,
+/// and beyond a plane's horizon its depth is +∞ (E-M8, WM94-10).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conditional<P = EveryTexel> {
+    /// The nearby texels.
+    pub pattern: P,
+    /// Multiplies the region's size.
+    pub res_factor: f32,
+    /// Least half-extent of the region after that, in texels.
+    pub min_size: f32,
+    /// The virtual samples. Its bias is that of plain comparison too.
+    pub plane: OnPlane,
+    /// Below this |cosine| between surface and light only plain comparison counts.
+    pub min_cos: f32,
+    /// When virtual samples are taken.
+    pub when: VirtualWhen,
+    /// Whether what faces away from the light is dark without a look: it is by its own shading, if that is max(N·L, 0) (WM94-4).
+    pub dark_backs: bool,
+}
+
+impl Default for Conditional {
+    /// The paper's: the nearest four, no bias.
+    fn default() -> Self {
+        Self {
+            pattern: EveryTexel,
+            res_factor: 0.0,
+            min_size: 1.0,
+            plane: OnPlane { slack: 1.0, ..OnPlane::default() },
+            min_cos: 0.02,
+            when: VirtualWhen::Mixed,
+            dark_backs: false,
+        }
+    }
+}
+
+impl<P: Pattern> Filter for Conditional<P> {
+    #[inline(always)]
+    fn shadow<S: Simd, M: DepthMap, Q: Probe>(
+        &self,
+        simd: S,
+        map: &M,
+        receiver: &Receiver,
+        key: Key,
+        probe: &mut Q,
+    ) -> f32 {
+        if self.dark_backs && receiver.facing <= 0.0 {
+            return 1.0;
+        }
+        let view = map.view();
+        let region = receiver.footprint.scaled(self.res_factor, self.min_size, view.size().as_vec2() * 0.25);
+        let own = Biased::constant(self.plane.bias);
+        let plain = share(simd, map, receiver, &region, (&self.pattern, &own), key, probe);
+        let agreed = plain == 0.0 || plain == 1.0;
+        let asked = match self.when {
+            VirtualWhen::Mixed => !agreed,
+            VirtualWhen::Always => true,
+            VirtualWhen::Never => false,
+        };
+        if !asked || receiver.facing.abs() < self.min_cos {
+            return plain;
+        }
+        probe.virtual_sampled();
+        share(simd, map, receiver, &region, (&self.pattern, &self.plane), key, probe)
+    }
+}

@@ -1,0 +1,75 @@
+use crate::ReceiverDepth;
+use crate::depth::lane;
+use fearless_simd::{Simd, f32x16, prelude::*};
+use glam::{DVec2, IVec2};
+use umbrage_plane::{Bias, DepthRange, Receiver, TexelRect, View, floor_texel};
+use umbrage_sample::Taps;
+
+/// From where to where a [`Cone`] measures (B06-3).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Radius {
+    /// To the place in the texel that is read where its depth was taken: the centre, or its own offset in a stochastic map.
+    #[default]
+    TexelCentre,
+    /// To the tap itself, as the note prints it. Needs a base of τ·tanθ/√2 besides (D-15).
+    Nominal,
+}
+
+/// The bias cone: the receiver's depth falls toward the light with the distance of the place that is looked at
+/// (Burley 2006; B06-1, B06-2).
+///
+/// Distances are in world units on the plane square to the light's axis through the receiver, so that `slope` is the tangent of the steepest
+/// tilt that is free of false shadow. That is certain with [`Radius::TexelCentre`], whatever the texel (D-15), in maps of
+/// axial and of screen depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone {
+    /// Bias at the cone's tip, world units, from 0.
+    pub base: f32,
+    /// World units of bias for each world unit of distance, from 0. 2 is the note's production value, 63.4°; 1 is 45°.
+    pub slope: f32,
+    /// How distances are measured.
+    pub radius: Radius,
+}
+
+impl Default for Cone {
+    /// Base 0, slope 2, measured to the texel that is read.
+    fn default() -> Self {
+        Self { base: 0.0, slope: 2.0, radius: Radius::TexelCentre }
+    }
+}
+
+impl Cone {
+    /// The bias at a distance, both in world units (V62).
+    #[inline(always)]
+    pub fn bias(&self, radius: f32) -> f32 {
+        self.base + self.slope * radius
+    }
+}
+
+impl ReceiverDepth for Cone {
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
+        let tip = view.eye_to_texel(receiver.eye);
+        let world = receiver.texel_world.as_dvec2();
+        let (column, row) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
+        let depth = |i: usize| {
+            let at = match self.radius {
+                Radius::TexelCentre => view.sampling().position(IVec2::new(column[i], row[i])),
+                Radius::Nominal => lane(taps, i).as_dvec2(),
+            };
+            let distance = ((at - tip) * world).length() as f32;
+            receiver.nearer(view, Bias::World(self.bias(distance)))
+        };
+        f32x16::load_array(simd, std::array::from_fn(depth))
+    }
+
+    #[inline(always)]
+    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
+        let tip = view.eye_to_texel(receiver.eye);
+        let (low, high) = (rect.min.as_dvec2() - tip, rect.max.as_dvec2() - tip);
+        let reach = low.abs().max(high.abs()) * receiver.texel_world.as_dvec2();
+        let inside = DVec2::ZERO.clamp(low, high) * receiver.texel_world.as_dvec2();
+        let at = |distance: f64| receiver.nearer(view, Bias::World(self.bias(distance as f32)));
+        DepthRange { min: at(reach.length()).next_down(), max: at(inside.length()).next_up() }
+    }
+}

@@ -1,0 +1,265 @@
+use crate::share::share;
+use crate::{Cone, Filter, Probe, ReceiverDepth};
+use fearless_simd::{Simd, prelude::*};
+use glam::Vec2;
+use umbrage_depth::DepthMap;
+use umbrage_plane::{Footprint, Kind, Receiver, TexelRect, View};
+use umbrage_sample::{Density, Disc, Key, Pattern};
+
+/// A radius on the map. The unit is part of the type.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Extent {
+    /// Texels.
+    Texels(f32),
+    /// Share of the map's width and height.
+    Share(f32),
+    /// World units on the plane square to the light's axis through the receiver.
+    World(f32),
+}
+
+impl Extent {
+    /// In texels along both axes.
+    #[inline(always)]
+    fn texels(self, view: &View, receiver: &Receiver) -> Vec2 {
+        match self {
+            Self::Texels(radius) => Vec2::splat(radius),
+            Self::Share(share) => view.size().as_vec2() * share,
+            Self::World(radius) => Vec2::splat(radius) / receiver.texel_world,
+        }
+    }
+}
+
+/// How wide the blur is, from the mean distance of the occluders (B06-6, EXT-4).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Softness {
+    /// Burley's: from `min` where the occluder touches the receiver to `max` where it is at the light, by 1 − z̄/z_p. Occluders are searched
+    /// within `max`. A disc light's own penumbra for one distance of occluders only (D-16).
+    Between {
+        /// Radius at contact.
+        min: Extent,
+        /// Largest radius and the search's.
+        max: Extent,
+    },
+    /// Physical: the penumbra of a disc that stands for the light (EXT-4, D-16). Half a texel at contact.
+    Light {
+        /// Radius of the disc in world units; of a directional light, the tangent of its angular radius (the sun: .00465).
+        radius: f32,
+        /// No occluder is nearer to the light than this, axial world units: it bounds the search. The near plane's distance is
+        /// always safe; larger is faster and less noisy.
+        nearest: f32,
+    },
+}
+
+impl Softness {
+    /// The search's radius in texels.
+    #[inline(always)]
+    fn search(self, view: &View, receiver: &Receiver, distance: f32) -> Vec2 {
+        match self {
+            Self::Between { max, .. } => max.texels(view, receiver),
+            Self::Light { nearest, .. } => self.blur(view, receiver, nearest, distance, 1.0),
+        }
+    }
+
+    /// The blur's radius in texels, for occluders at `mean` and a receiver at `distance` from the light.
+    #[inline(always)]
+    fn blur(self, view: &View, receiver: &Receiver, mean: f32, distance: f32, gamma: f32) -> Vec2 {
+        match self {
+            Self::Between { min, max } => {
+                let (min, max) = (min.texels(view, receiver), max.texels(view, receiver));
+                min + (max - min) * factor(mean, distance).powf(gamma)
+            }
+            Self::Light { radius, .. } => {
+                // Seen from the light, the half penumbra has the tangent ℓ/2·(1/ζ_o − 1/ζ_r); at the receiver it is ζ_r as wide.
+                let scale = if view.is_perspective() { 1.0 / mean } else { 1.0 };
+                let world = radius * (distance - mean).max(0.0) * scale;
+                // At contact still as wide as bilinear look-up: the texel itself must not show.
+                (Vec2::splat(if world.is_finite() { world } else { f32::MAX }) / receiver.texel_world).max(Vec2::splat(0.5))
+            }
+        }
+    }
+}
+
+/// Burley's factor 1 − z̄/z_p, between 0 and 1; 0 for a receiver at or behind the light (E-B4, V64).
+#[inline(always)]
+pub fn factor(mean: f32, distance: f32) -> f32 {
+    if distance > 0.0 { (1.0 - mean / distance).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// How occluders count by their distance from the search's centre (B06-4).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Falloff {
+    /// From 1 at the centre in a straight line to `rim`, above 0 and at most 1, at the search's radius. Burley's rim is 0.1.
+    Linear {
+        /// Weight at the rim.
+        rim: f32,
+    },
+    /// A cosine's half wave from 1 to `rim`.
+    Smooth {
+        /// Weight at the rim.
+        rim: f32,
+    },
+    /// All alike: the plain mean (Fernando 2005; B06-9).
+    Flat,
+}
+
+impl Falloff {
+    /// The weight at a share of the search's radius.
+    #[inline(always)]
+    pub fn weight(self, share: f32) -> f32 {
+        match self {
+            Self::Linear { rim } => 1.0 - (1.0 - rim) * share,
+            Self::Smooth { rim } => rim + (1.0 - rim) * (0.5 + 0.5 * (std::f32::consts::PI * share.min(1.0)).cos()),
+            Self::Flat => 1.0,
+        }
+    }
+}
+
+/// A shadow's density by the way from occluder to receiver (B06-10).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opacity {
+    /// At contact, 0..=1.
+    pub near: f32,
+    /// From `fade` on, 0..=1.
+    pub far: f32,
+    /// World units after which the density is `far`, above 0; +∞ for `near` everywhere.
+    pub fade: f32,
+    /// Shapes the way between: the share of `fade` is raised to this power before it is smoothed. 1 leaves it alone.
+    pub gamma: f32,
+}
+
+impl Opacity {
+    /// No effect.
+    pub const FULL: Self = Self { near: 1.0, far: 1.0, fade: f32::INFINITY, gamma: 1.0 };
+
+    /// The density for a gap in world units.
+    #[inline(always)]
+    pub fn at(&self, gap: f32) -> f32 {
+        let share = (gap / self.fade).clamp(0.0, 1.0).powf(self.gamma);
+        self.near + (self.far - self.near) * (share * share * (3.0 - 2.0 * share))
+    }
+}
+
+/// The weighted mean of occluders' distances (B06-4). Its own type because *none* is no distance (E-B3).
+#[derive(Clone, Copy, Debug, Default)]
+struct Mean {
+    sum: f64,
+    weight: f64,
+}
+
+impl Mean {
+    #[inline(always)]
+    fn add(&mut self, distance: f64, weight: f32) {
+        self.sum += distance * f64::from(weight);
+        self.weight += f64::from(weight);
+    }
+
+    #[inline(always)]
+    fn value(self) -> Option<f32> {
+        (self.weight > 0.0).then(|| (self.sum / self.weight) as f32)
+    }
+}
+
+/// Soft shadows from one map: the mean distance of the occluders around a receiver sets how wide its shadow is blurred
+/// (Burley 2006; B06-4 to B06-8, B06-10).
+///
+/// `depth` is compared in both passes: [`Cone`] is Burley's; a tangent plane or a constant bias does as well. Distances are measured from the
+/// light: axial or Euclidean as the map stores them, and from the plane of the view's eye for directional lights (T-12). Texels outside the map are
+/// never occluders. The blur is never narrower than the receiver's own region, and no wider than a quarter of the map to each side.
+///
+/// Departures from the printed listing, by the errata of [`as_printed`](crate::as_printed): the bias moves toward the light (E-B1), the blur knows its
+/// point (E-B2), *no occluder* is not a depth of 0 (E-B3), the factor is clamped (E-B4), slope and radius are in world units (E-B5, E-B6).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Soft<D = Cone> {
+    /// How wide the blur is.
+    pub softness: Softness,
+    /// Where occluders are searched. Burley's is dense in the middle.
+    pub search: Disc,
+    /// Where the shadow is looked up. Only an even density filters as a disc does.
+    pub blur: Disc,
+    /// How occluders count.
+    pub falloff: Falloff,
+    /// Which depth is compared.
+    pub depth: D,
+    /// Shapes the blur: the factor of [`Softness::Between`] is raised to this power. 1 leaves it alone.
+    pub radius_gamma: f32,
+    /// Density by distance.
+    pub opacity: Opacity,
+    /// Whether a receiver without occluders is still looked up at the least radius: what only the blur would have met does not
+    /// vanish at once then (E-B9).
+    pub rescue: bool,
+}
+
+impl Default for Soft {
+    /// Burley's: 32 and 32 taps, from half a texel to 16 texels.
+    fn default() -> Self {
+        Self {
+            softness: Softness::Between { min: Extent::Texels(0.5), max: Extent::Texels(16.0) },
+            search: Disc { density: Density::Centred, ..Disc::default() },
+            blur: Disc::default(),
+            falloff: Falloff::Linear { rim: 0.1 },
+            depth: Cone::default(),
+            radius_gamma: 1.0,
+            opacity: Opacity::FULL,
+            rescue: false,
+        }
+    }
+}
+
+impl<D: ReceiverDepth> Soft<D> {
+    /// The weighted mean distance of the occluders around a receiver, world units from the light; `None` without one
+    /// (`sampleDepth` of the note; B06-4).
+    #[inline(always)]
+    fn occluders<S: Simd, M: DepthMap>(&self, simd: S, map: &M, receiver: &Receiver, region: &Footprint, key: Key) -> Option<f32> {
+        let view = map.view();
+        let rect = TexelRect::around(region.centre, region.half);
+        let mut mean = Mean::default();
+        self.search.taps(simd, region, key, |taps| {
+            let compared = self.depth.lanes(simd, view, receiver, taps);
+            let stored = map.look(simd, rect, taps.x, taps.y);
+            let nearer = compared.simd_gt(stored).to_bitmask() as u32 & taps.mask;
+            for i in (0..16).filter(|i| nearer >> i & 1 == 1) {
+                let from = (Vec2::new(taps.x[i], taps.y[i]) - region.centre) / region.half.max(Vec2::splat(f32::MIN_POSITIVE));
+                mean.add(distance(view, stored[i]), self.falloff.weight(from.length()));
+            }
+        });
+        mean.value()
+    }
+}
+
+/// World distance from the light of a stored depth.
+#[inline(always)]
+fn distance(view: &View, depth: f32) -> f64 {
+    match view.kind() {
+        Kind::Axial | Kind::Radial => f64::from(depth),
+        Kind::Screen => view.decode().zeta(depth),
+    }
+}
+
+impl<D: ReceiverDepth> Filter for Soft<D> {
+    #[inline(always)]
+    fn shadow<S: Simd, M: DepthMap, Q: Probe>(
+        &self,
+        simd: S,
+        map: &M,
+        receiver: &Receiver,
+        key: Key,
+        probe: &mut Q,
+    ) -> f32 {
+        let view = map.view();
+        let most = view.size().as_vec2() * 0.25;
+        let Footprint { centre, half, .. } = receiver.footprint;
+        let at_least = |radius: Vec2| Footprint::boxed(centre, radius.max(half).min(most));
+        let own = distance(view, receiver.depth) as f32;
+        let search = at_least(self.softness.search(view, receiver, own));
+        probe.looked(self.search.num_samples);
+        let found = self.occluders(simd, map, receiver, &search, key);
+        // Without an occluder all is lit, unless the edge of the map or the cone is near: what lies beyond may be dark.
+        if found.is_none() && !self.rescue && view.holds(search.centre, search.half) {
+            return 0.0;
+        }
+        let mean = found.unwrap_or(own);
+        let region = at_least(self.softness.blur(view, receiver, mean, own, self.radius_gamma));
+        let dark = share(simd, map, receiver, &region, (&self.blur, &self.depth), key, probe);
+        dark * self.opacity.at(own - mean)
+    }
+}
