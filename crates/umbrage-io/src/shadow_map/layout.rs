@@ -9,7 +9,7 @@ use glam::{IVec2, UVec2};
 use umbrage_plane::TexelRect;
 
 /// Deflate makes no more than 1032 bytes of one; a block that claims more is not worth taking memory for.
-const MOST_BYTES_PER_BYTE: usize = 1100;
+pub(crate) const MOST_BYTES_PER_BYTE: usize = 1100;
 
 /// Bytes before a tile's packed depths: its coordinates, its level, its length.
 const TILE_HEAD: usize = 20;
@@ -74,6 +74,11 @@ impl Layout {
         cell.y as usize * self.columns + cell.x as usize
     }
 
+    /// The row that a block of scan lines begins with, as the file counts.
+    pub(crate) fn row(&self, index: usize) -> i32 {
+        self.first_row + self.cell(index).y * self.block.y
+    }
+
     /// A block's place in its grid.
     fn cell(&self, index: usize) -> IVec2 {
         IVec2::new((index % self.columns) as i32, (index / self.columns) as i32)
@@ -108,7 +113,7 @@ impl Layout {
             let found = [word("tile x")?, word("tile y")?, word("level x")?, word("level y")?];
             (found, [cell.x, cell.y, 0, 0])
         } else {
-            ([word("row")?, 0, 0, 0], [self.first_row + cell.y * self.block.y, 0, 0, 0])
+            ([word("row")?, 0, 0, 0], [self.row(index), 0, 0, 0])
         };
         if found != expected {
             return Err(broken(&format!("{found:?}"), &format!("the block there should be {expected:?}")));

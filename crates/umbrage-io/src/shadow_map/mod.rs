@@ -17,8 +17,10 @@ use crate::file::{read_bytes, write_bytes};
 use std::path::Path;
 use umbrage_depth::{DepthMap, Raw};
 
-pub(crate) use layout::Layout;
-pub(crate) use read::Preface;
+pub(crate) use layout::{Layout, MOST_BYTES_PER_BYTE};
+pub(crate) use read::{Preface, check_digest};
+pub(crate) use text::{digest, of_map as comments};
+pub(crate) use write::{attributes, channel, display, stored_window};
 
 /// Most texels that [`read_shadow_map`] takes: 16,384 × 16,384, which is 1 GiB.
 pub const DEFAULT_BUDGET: u64 = 1 << 28;

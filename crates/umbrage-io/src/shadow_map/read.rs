@@ -16,7 +16,7 @@ pub(crate) struct Preface {
     pub(crate) meta: MetaData,
     pub(crate) view: View,
     /// Of view and depths; files of other makers have none.
-    digest: Option<u64>,
+    pub(crate) digest: Option<u64>,
     pub(crate) layout: Layout,
     /// Where the file has each block; all different, all behind the table and inside the file.
     pub(crate) offsets: Vec<u64>,
@@ -25,6 +25,17 @@ pub(crate) struct Preface {
 impl Preface {
     /// From the start of a file of `length` bytes, of which nothing behind the offset table is asked for.
     pub(crate) fn read(file: impl BufRead, length: u64, most_texels: u64, most_blocks: u64) -> Result<Self, Fault> {
+        Self::read_as(check_form, file, length, most_texels, most_blocks)
+    }
+
+    /// The same for another form of map than the flat one: `check_form` refuses what is not of it.
+    pub(crate) fn read_as(
+        check_form: impl FnOnce(&Header) -> Result<(), Fault>,
+        file: impl BufRead,
+        length: u64,
+        most_texels: u64,
+        most_blocks: u64,
+    ) -> Result<Self, Fault> {
         let most = length.min(MOST_HEADER_BYTES);
         let mut file = file.take(most);
         let meta = MetaData::read_from_buffered(&mut file, true);
@@ -68,13 +79,18 @@ pub(crate) fn decode(bytes: &[u8], most_texels: u64) -> Result<(View, Vec<f32>),
             depths[texel.y as usize * size.x as usize + texel.x as usize] = f32::from_ne_bytes(*sample);
         }
     }
-    let found = text::digest(&file.view, depths.iter().copied());
-    match file.digest {
+    check_digest(file.digest, text::digest(&file.view, depths.iter().copied()))?;
+    Ok((file.view, depths))
+}
+
+/// A file of ours holds what was written.
+pub(crate) fn check_digest(written: Option<u64>, found: u64) -> Result<(), Fault> {
+    match written {
         Some(written) if written != found => {
             let problem = format!("view and depths make {found:016x}: they are not what was written");
             Err(Fault::new("comments: digest", format!("{written:016x}"), problem))
         }
-        _ => Ok((file.view, depths)),
+        _ => Ok(()),
     }
 }
 

@@ -3,7 +3,7 @@ use crate::error::Fault;
 use exr::block::{self, BlockIndex, writer::ChunksWriter};
 use exr::meta::attribute::{LevelMode, TileDescription};
 use exr::meta::header::{Header, LayerAttributes};
-use exr::meta::{BlockDescription, attribute};
+use exr::meta::BlockDescription;
 use exr::prelude::{AttributeValue, ChannelDescription, Compression, IntegerBounds, LineOrder, SampleType, Text, Vec2};
 use glam::IVec2;
 use std::io::Cursor;
@@ -33,7 +33,7 @@ pub(crate) fn encode(map: &impl DepthMap) -> Result<Vec<u8>, Fault> {
 }
 
 /// The smallest rectangle around the finite depths (R87-19); one texel, as EXR needs it, when there are none.
-fn stored_window(map: &impl DepthMap) -> TexelRect {
+pub(crate) fn stored_window(map: &impl DepthMap) -> TexelRect {
     let whole = TexelRect::of_size(map.view().size());
     let side = TILE as i32;
     let cells = TexelRect::new(IVec2::ZERO, (whole.max + side - 1) / side).texels();
@@ -45,8 +45,8 @@ fn stored_window(map: &impl DepthMap) -> TexelRect {
     if window.is_empty() { one(IVec2::ZERO) } else { window }
 }
 
-fn header(view: &View, window: TexelRect, comments: &str) -> Header {
-    let sides = window.size();
+/// What every map's file says of its view.
+pub(crate) fn attributes(view: &View, window: TexelRect, comments: &str) -> LayerAttributes {
     let [world_to_camera, world_to_ndc] = matrices::of_view(view);
     let mut attributes = LayerAttributes {
         layer_position: Vec2(window.min.x, window.min.y),
@@ -60,24 +60,36 @@ fn header(view: &View, window: TexelRect, comments: &str) -> Header {
     };
     // The crate keeps other attributes in a hash map: more than one would be written in a different order each time.
     attributes.other.insert(Text::from("textureformat"), AttributeValue::Text(Text::from("Shadow")));
-    let depth = ChannelDescription {
-        name: Text::from("Z"),
+    attributes
+}
+
+/// A channel of floats, one a texel or deep.
+pub(crate) fn channel(name: &str) -> ChannelDescription {
+    ChannelDescription {
+        name: Text::from(name),
         sample_type: SampleType::F32,
         quantize_linearly: false,
         sampling: Vec2(1, 1),
-    };
+    }
+}
+
+/// The display window: the whole map.
+pub(crate) fn display(view: &View) -> IntegerBounds {
+    IntegerBounds::from_dimensions(Vec2(view.size().x as usize, view.size().y as usize))
+}
+
+fn header(view: &View, window: TexelRect, comments: &str) -> Header {
+    let sides = window.size();
     let tiles = TileDescription {
         tile_size: Vec2(TILE, TILE),
         level_mode: LevelMode::Singular,
         rounding_mode: exr::math::RoundingMode::Down,
     };
-    let size = view.size();
-    let display = IntegerBounds::from_dimensions(Vec2(size.x as usize, size.y as usize));
-    let channels: attribute::ChannelList = attribute::ChannelList::new(std::iter::once(depth).collect());
-    Header::new(Text::from("shadow"), Vec2(sides.x as usize, sides.y as usize), channels.list)
+    let channels = std::iter::once(channel("Z")).collect();
+    Header::new(Text::from("shadow"), Vec2(sides.x as usize, sides.y as usize), channels)
         .with_encoding(Compression::ZIP16, BlockDescription::Tiles(tiles), LineOrder::Increasing)
-        .with_attributes(attributes)
-        .with_display_window(display)
+        .with_attributes(attributes(view, window, comments))
+        .with_display_window(display(view))
 }
 
 /// A block's depths as the coder wants them: rows of native-endian floats.

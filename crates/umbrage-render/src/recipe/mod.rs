@@ -231,7 +231,7 @@ mod tests {
     use depth::{Choice, Depth};
     use umbrage_sample::Jittered;
     use umbrage_shadow::williams::{Dither, DitherLaw, Guard, Lookup};
-    use umbrage_shadow::{Biased, Pcf, Spread};
+    use umbrage_shadow::{Biased, Extent, Opacity, Pcf, Radius, Softness, Spread};
 
     fn reeves(text: &str) -> Reeves {
         let Method::Reeves(reeves) = text.parse::<Recipe>().unwrap().method else { panic!("{text}") };
@@ -281,5 +281,53 @@ mod tests {
         ] {
             assert!(!refused(text).contains('\n'), "{text}");
         }
+    }
+
+    #[test]
+    fn presets_choose_what_is_stored_and_how_it_is_asked() {
+        let of = |text: &str| text.parse::<Recipe>().unwrap();
+        assert_eq!(of("woo92").stored.rule, Rule::Midpoint);
+        assert_eq!(reeves("woo92").depth.biased, Biased::constant(Bias::ZERO));
+        assert_eq!(of("wang-molnar94").stored.rule, Rule::BackFace);
+        let mixed = of("burley,stored=midpoint,ratio=0.25,depth=cone,slope=1");
+        assert_eq!((mixed.stored.rule, mixed.stored.midpoint.ratio), (Rule::Midpoint, 0.25));
+        let Method::Burley(burley) = mixed.method else { panic!("burley") };
+        assert_eq!((burley.depth.choice, burley.depth.slope), (Choice::Cone, 1.0));
+        assert_eq!(reeves("woo92,depth=cone,pattern=disc").depth.cone(), umbrage_shadow::Cone::default());
+    }
+
+    #[test]
+    fn wm94_6_neighbourhoods_by_name() {
+        for (text, wanted) in [("four", (0.0, 1.0)), ("region", (1.0, 1.0)), ("box3", (0.0, 1.5)), ("box9", (0.0, 4.5))] {
+            let recipe: Recipe = format!("wang-molnar94,nearby={text}").parse().unwrap();
+            let Method::WangMolnar(found) = recipe.method else { panic!("wang-molnar94") };
+            assert_eq!((found.filter.res_factor, found.filter.min_size), wanted, "{text}");
+        }
+        for text in ["box2", "box10", "box", "five"] {
+            assert!(refused(&format!("wang-molnar94,nearby={text}")).starts_with("nearby = "), "{text}");
+        }
+    }
+
+    #[test]
+    fn b06_every_field_is_read_and_what_contradicts_is_refused() {
+        let all = "burley,min=1w,max=2%,search=16,blur=64,rotate=off,half-offset=on,rescue=on,falloff=smooth,shape=2,opacity=0.9..0.2,opacity-shape=0.5,fade=30,bias=0.1,radius=nominal";
+        let Method::Burley(found) = all.parse::<Recipe>().unwrap().method else { panic!("burley") };
+        let soft = found.soft;
+        let between = Softness::Between { min: Extent::World(1.0), max: Extent::Share(0.02) };
+        assert_eq!((soft.softness, soft.radius_gamma, soft.rescue), (between, 2.0, true));
+        assert_eq!((soft.search.num_samples, soft.blur.num_samples, soft.blur.rotate), (16, 64, false));
+        assert_eq!(soft.opacity, Opacity { near: 0.9, far: 0.2, fade: 30.0, gamma: 0.5 });
+        assert_eq!((found.depth.cone().base, found.depth.cone().radius), (0.1, Radius::Nominal));
+        let light: Recipe = "burley,light=2,nearest=5,depth=plane".parse().unwrap();
+        let Method::Burley(found) = light.method else { panic!("burley") };
+        assert_eq!(found.soft.softness, Softness::Light { radius: 2.0, nearest: 5.0 });
+        assert!(refused("burley,light=2,max=3").starts_with("max = "));
+        assert!(refused("burley,nearest=3").starts_with("nearest = "));
+        assert!(refused("burley,bias=1t").starts_with("bias = "));
+        assert!(refused("burley,opacity=1").starts_with("opacity = "));
+        assert!(refused("woo92,ratio=0").starts_with("ratio = "));
+        assert!(refused("reeves87,compare=integer").starts_with("compare = "));
+        assert!("woo92,compare=integer".parse::<Recipe>().is_ok());
+        assert!(refused("burley,pattern=disc").contains("fade"), "the fields that there are");
     }
 }
