@@ -11,6 +11,12 @@ pub enum Paper {
     Williams78,
     /// Reeves, Salesin & Cook 1987.
     Reeves87,
+    /// Woo 1992.
+    Woo92,
+    /// Wang & Molnar 1994.
+    WangMolnar94,
+    /// Burley 2006.
+    Burley06,
     /// Our own.
     Umbrage,
 }
@@ -21,6 +27,9 @@ impl Paper {
         match self {
             Self::Williams78 => "Williams 1978",
             Self::Reeves87 => "Reeves, Salesin & Cook 1987",
+            Self::Woo92 => "Woo 1992",
+            Self::WangMolnar94 => "Wang & Molnar 1994",
+            Self::Burley06 => "Burley 2006",
             Self::Umbrage => "Umbrage",
         }
     }

@@ -7,9 +7,9 @@ use std::sync::{Arc, Mutex, OnceLock};
 use umbrage_depth::{First, Raw, Tiled, quantise};
 use umbrage_oracle::metrics::{self, Grid};
 use umbrage_oracle::{Diagnostic, Geometry, Plan, RayCast, Truth, diagnose, heat};
-use umbrage_plane::{Kind, Sampling, View};
+use umbrage_plane::{Kind, Sampling, SurfacePoint, View};
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Map, Picture, Recipe, Soup, bake, bind, bind_lights, light_maps, picture};
+use umbrage_render::{Frame, Map, NOTHING, Picture, Recipe, Soup, bake, bind, bind_lights, light_maps, picture};
 use umbrage_scene::{Light, Scene};
 use umbrage_shadow::{Filter, Shadow, Unshadowed};
 
@@ -185,6 +185,27 @@ pub fn with_kind(mut scene: Scene, kind: Kind) -> Scene {
 pub fn lit(truth: &Picture, border: usize, keep: impl Fn(u32) -> bool) -> Vec<bool> {
     let lit = metrics::lit_mask(shadow_grid(truth), &truth.facing[0], border, 0.05);
     metrics::both(&lit, &of(truth, keep))
+}
+
+/// False shadow over what `keep` accepts (M2), `border` pixels away from truth's shadows.
+pub fn acne(picture: &Picture, truth: &Picture, border: usize, keep: impl Fn(u32) -> bool) -> f64 {
+    value(metrics::false_shadow(&picture.shadow[0], &lit(truth, border, keep)))
+}
+
+/// Light where truth says shadowed, on surfaces that face the light by more than .05 (M8), `border` pixels away from truth's light.
+pub fn leak(picture: &Picture, truth: &Picture, border: usize) -> f64 {
+    let dark = metrics::dark_mask(shadow_grid(truth), &truth.facing[0], border, 0.05);
+    value(metrics::leak(&picture.shadow[0], &metrics::both(&dark, &of(truth, |_| true))))
+}
+
+/// What a picture's pixels see, as points; a pixel that sees nothing is left out.
+pub fn points_of(picture: &Picture) -> Vec<SurfacePoint> {
+    let seen = (0..picture.object.len()).filter(|&i| picture.object[i] != NOTHING);
+    seen.map(|i| {
+        let point = SurfacePoint::at(picture.position[i], picture.normal[i]);
+        SurfacePoint { region: i as u32, object: picture.object[i], ..point }
+    })
+    .collect()
 }
 
 /// Pixels wholly covered by an object that `keep` accepts.
