@@ -16,6 +16,7 @@ mod studio;
 mod williams_scenes;
 mod williams_shadow;
 mod williams_views;
+mod woo;
 
 use crate::figure::Figure;
 
@@ -52,6 +53,11 @@ pub const FIGURES: &[&Figure] = &[
     &bump::BUMP,
     &reeves_tables::T1,
     &reeves_tables::T2,
+    &woo::F1,
+    &woo::F2,
+    &woo::F3,
+    &woo::RIM,
+    &woo::COST,
     &curves::ACNE,
     &curves::NOISE,
     &faults::FAULTS,

@@ -5,23 +5,48 @@
 
 mod bicycle;
 mod bicycle_shop;
+mod bowling;
+mod boxes;
+mod curved;
 mod desk_lamps;
+mod foliage;
 mod four_spheres;
+mod glass_pane;
+mod hall;
 mod lamp;
+mod moving_ball;
+mod pins;
+mod pipes;
+mod plant;
 mod robot;
 mod sculpt;
 mod smile;
 mod sphere_plane;
+mod spot_room;
+mod table;
 mod teapot;
+mod thin;
+mod views;
+mod walkthrough;
 mod workshop;
 
 pub use bicycle_shop::bicycle_shop;
+pub use bowling::{BOWLING_FRAMES, bowling};
+pub use boxes::{contact_box, overlapping_boxes, single_occluder, two_heights};
 pub use desk_lamps::desk_lamps;
 pub use four_spheres::{four_spheres, four_spheres_lit_from};
+pub use glass_pane::glass_pane;
+pub use moving_ball::moving_ball;
+pub use pipes::{pipe_segments, pipes};
+pub use plant::{BLADES, plant};
 pub use robot::robot;
 pub use smile::smile;
 pub use sphere_plane::{SLAB_THICKNESS, box_plane, sphere_plane, three_lights};
+pub use spot_room::spot_room;
+pub use table::{table, table_close_up};
 pub use teapot::teapot;
+pub use thin::{THIN, grazing, occluder_sphere, sheets, thin_slab};
+pub use walkthrough::walkthrough;
 
 use crate::{Scene, Shape};
 
@@ -39,6 +64,24 @@ pub const ALL: &[(&str, Make)] = &[
     ("robot", robot),
     ("desk-lamps", desk_lamps),
     ("bicycle-shop", bicycle_shop),
+    ("table", table),
+    ("table-close-up", table_close_up),
+    ("spot-room", spot_room),
+    ("contact-box", contact_box),
+    ("overlapping-boxes", overlapping_boxes),
+    ("two-heights", two_heights),
+    ("single-occluder", single_occluder),
+    ("pipes", pipes),
+    ("walkthrough", walkthrough),
+    ("bowling", || bowling(0)),
+    ("plant", plant),
+    ("glass-pane", glass_pane),
+    ("moving-ball", || moving_ball(0.5)),
+    ("thin-slab", thin_slab),
+    ("sheets-planar", || sheets(false)),
+    ("sheets-curved", || sheets(true)),
+    ("occluder-sphere", occluder_sphere),
+    ("grazing", grazing),
 ];
 
 /// How many bicubic patches a scene has.
