@@ -8,7 +8,7 @@ use umbrage_oracle::{gap_on_surface, heat, metrics};
 use umbrage_plane::SurfacePoint;
 use umbrage_render::{Frame, Picture};
 use umbrage_sample::Key;
-use umbrage_scene::{Scene, gallery};
+use umbrage_scene::gallery::{self, Make};
 use umbrage_shadow::Shadow;
 
 /// A method's name and recipe. Biases are in texels, as worlds differ in size: 3 to 4 are Reeves' .3 to .4 at his world's and his map's size,
@@ -40,6 +40,9 @@ struct Judged {
     leak: f64,
     rms: f64,
 }
+
+/// One number of a judgement.
+type Fault = fn(&Judged) -> f64;
 
 /// Border of the masks about truth's edges, in pixels.
 fn border(cx: &Context) -> usize {
@@ -203,8 +206,10 @@ pub const PRESETS: Figure = Figure {
     make: presets,
 };
 
-/// Whether every caster of a scene is a closed solid of more than a few texels.
-const STAGES: [(&str, fn() -> Scene, bool); 12] = [
+/// A scene's name, what makes it, and whether every caster is a closed solid of more than a few texels.
+type Stage = (&'static str, Make, bool);
+
+const STAGES: [Stage; 12] = [
     ("sphere, slab", gallery::sphere_plane, true),
     ("box, slab", gallery::box_plane, true),
     ("spot room", gallery::spot_room, true),
@@ -238,7 +243,7 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
     let mut made = Made::default();
     let head: Vec<String> =
         std::iter::once("method").chain(STAGES.iter().map(|stage| stage.0)).chain(["mean"]).map(String::from).collect();
-    let faults: [(&str, fn(&Judged) -> f64); 3] =
+    let faults: [(&str, Fault); 3] =
         [("false shadow", |one| one.acne), ("leak", |one| one.leak), ("error", |one| one.rms)];
     for (name, of) in faults {
         let line = |(method, row): (&Method, &[Judged; STAGES.len()])| {
@@ -255,7 +260,7 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
     let panel =
         Panel::rgb("matrix", "Every method (rows) on every scene (columns), less truth", sheet.size, sheet.pixels);
     made.panels.push(panel.with("columns", names).with("rows", format!("the scene, {methods}")).role(Role::Error));
-    let worst = |name: &str, of: fn(&Judged) -> f64, solids: bool| {
+    let worst = |name: &str, of: Fault, solids: bool| {
         let among = STAGES.iter().zip(&found[index(name)]).filter(|(stage, _)| stage.2 || !solids);
         among.map(|(_, one)| of(one)).filter(|value| value.is_finite()).fold(0.0, f64::max)
     };

@@ -270,7 +270,7 @@ fn rim(cx: &Context) -> anyhow::Result<Made> {
         ));
         // Straight through the board's shadow, averaged over a fan of directions.
         let light = &set.scene.lights[0];
-        let shadow = bind(Pcf { min_size: 3.0, ..presets::woo92() }, &middle_map(&set), cx.storage);
+        let shadow = bind(Pcf { min_size: 3.0, ..presets::woo92() }, middle_map(&set), cx.storage);
         let texel = light.view.texel_world(60.0).x;
         let (mut profile, key) = (Vec::new(), Key::new(cx.seed, 0, 0));
         for step in -24..=16 {
