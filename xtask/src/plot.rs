@@ -294,7 +294,7 @@ impl Plot {
             }
         }
         let index = families.iter().position(|family| *family == series.family()).unwrap_or(0) % COLOURS.len();
-        format!("var(--series-{}, {})", index + 1, COLOURS[index])
+        ink(index)
     }
 
     fn draw_series(&self, svg: &mut String, series: &Series, across: &Span, up: &Span) {
@@ -344,8 +344,13 @@ impl Plot {
     }
 }
 
+/// The colour of a series: the theme's own, and one for a drawing that is opened alone.
+pub(crate) fn ink(index: usize) -> String {
+    format!("var(--series-{}, {})", index + 1, COLOURS[index])
+}
+
 /// A coordinate with two digits at most.
-fn pixel(value: f64) -> String {
+pub(crate) fn pixel(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".into() } else { text.into() }
