@@ -2,9 +2,11 @@
 
 mod all_round;
 mod bump;
+mod burley_bias;
 mod curves;
 mod faults;
 mod paging;
+mod penumbra;
 mod reeves_idea;
 mod reeves_listing;
 mod reeves_parameters;
@@ -58,6 +60,7 @@ pub const FIGURES: &[&Figure] = &[
     &woo::F3,
     &woo::RIM,
     &woo::COST,
+    &burley_bias::I75,
     &curves::ACNE,
     &curves::NOISE,
     &faults::FAULTS,
