@@ -116,24 +116,55 @@ fn cone(cx: &Context) -> anyhow::Result<Made> {
     let [one_texel, slope_1, ..] = recipes(&floor);
     let limit = Slope::new(cx, 63.4)?;
     made.measures = vec![
-        Measure::exactly("cone of slope 2, texel centre: largest false shadow up to 63.4°",
-            largest(2, 63.4).max(limit.dark(cx, &recipes(&limit)[2])?), "share", 0.0),
-        Measure::exactly("cone of slope 1, texel centre: largest false shadow up to 45°", largest(1, 45.0), "share", 0.0),
-        Measure::at_least("cone of slope 1 on a floor tilted 50°: false shadow", floor.dark(cx, &slope_1)?, "share", 0.05),
-        Measure::within("disc with a bias of one texel on that floor: false shadow", floor.dark(cx, &one_texel)?, "share", 0.25, 0.45),
+        Measure::exactly(
+            "cone of slope 2, texel centre: largest false shadow up to 63.4°",
+            largest(2, 63.4).max(limit.dark(cx, &recipes(&limit)[2])?),
+            "share",
+            0.0,
+        ),
+        Measure::exactly(
+            "cone of slope 1, texel centre: largest false shadow up to 45°",
+            largest(1, 45.0),
+            "share",
+            0.0,
+        ),
+        Measure::at_least(
+            "cone of slope 1 on a floor tilted 50°: false shadow",
+            floor.dark(cx, &slope_1)?,
+            "share",
+            0.05,
+        ),
+        Measure::within(
+            "disc with a bias of one texel on that floor: false shadow",
+            floor.dark(cx, &one_texel)?,
+            "share",
+            0.25,
+            0.45,
+        ),
         Measure::info("cone of slope 2, nominal radius: largest false shadow up to 63.4°", largest(3, 63.4), "share"),
         Measure::exactly("the same with a base of τ·tanθ/√2", largest(4, 63.4), "share", 0.0),
-        Measure::at_least("constant bias that is needed over D-9's, least", ratios.iter().copied().fold(f64::INFINITY, f64::min), "ratio", 0.85),
-        Measure::at_most("constant bias that is needed over D-9's, most", ratios.iter().copied().fold(0.0, f64::max), "ratio", 1.15),
+        Measure::at_least(
+            "constant bias that is needed over D-9's, least",
+            ratios.iter().copied().fold(f64::INFINITY, f64::min),
+            "ratio",
+            0.85,
+        ),
+        Measure::at_most(
+            "constant bias that is needed over D-9's, most",
+            ratios.iter().copied().fold(0.0, f64::max),
+            "ratio",
+            1.15,
+        ),
         Measure::info("constant bias that is needed at 75°", needed[needed.len() - 1].1, "texels"),
     ];
     let mut sweep = Plot::new("Radius 8 texels", Axis::linear("tilt, degrees"), Axis::linear("share in false shadow"));
     for (name, line) in SWEPT.iter().zip(shares) {
         sweep = sweep.add(Series::line(name, line));
     }
-    let bias = Plot::new("Constant bias without false shadow", Axis::linear("tilt, degrees"), Axis::linear("bias, texels"))
-        .add(Series::line("(R + ½)·g, predicted (D-9)", predicted))
-        .add(Series::dots("(R + ½)·g, measured", needed));
+    let bias =
+        Plot::new("Constant bias without false shadow", Axis::linear("tilt, degrees"), Axis::linear("bias, texels"))
+            .add(Series::line("(R + ½)·g, predicted (D-9)", predicted))
+            .add(Series::dots("(R + ½)·g, measured", needed));
     made.plots = vec![
         ("disc-and-cone".into(), schematic(&floor)),
         ("false-shadow".into(), sweep.svg()),
@@ -155,7 +186,10 @@ fn schematic(slope: &Slope) -> String {
     let middle = view.size().x as i32 / 2;
     let stored: Vec<DVec2> = (middle - 13..=middle + 13)
         .map(|x| {
-            let at = view.world_at(DVec2::new(f64::from(x) + 0.5, f64::from(row) + 0.5), f64::from(slope.map.depth(IVec2::new(x, row))));
+            let at = view.world_at(
+                DVec2::new(f64::from(x) + 0.5, f64::from(row) + 0.5),
+                f64::from(slope.map.depth(IVec2::new(x, row))),
+            );
             DVec2::new(at.x, at.z)
         })
         .collect();
@@ -165,20 +199,28 @@ fn schematic(slope: &Slope) -> String {
     let surface = [DVec2::new(-reach, -reach * tan), DVec2::new(reach, reach * tan)];
     let solid = [surface[0], surface[1], DVec2::new(reach, -2.0), DVec2::new(-reach, -2.0)];
     let (small, large) = (slope.texel, slope.predicted());
-    let pierced: Vec<DVec2> =
-        stored.iter().copied().filter(|at| at.x.abs() <= radius && at.y > small).map(|at| DVec2::new(at.x, small)).collect();
+    let pierced: Vec<DVec2> = stored
+        .iter()
+        .copied()
+        .filter(|at| at.x.abs() <= radius && at.y > small)
+        .map(|at| DVec2::new(at.x, small))
+        .collect();
     let cone = [DVec2::new(-radius, 2.0 * radius), DVec2::ZERO, DVec2::new(radius, 2.0 * radius)];
-    Diagram::new("One row of a map of a floor tilted 50°; the light is above", DVec2::new(-0.86, -0.55), DVec2::new(0.86, 1.16))
-        .draw(Mark::Area, Ink::Faint, &solid)
-        .pieces(2.4, Ink::Plain, stored.iter().map(|at| [*at - DVec2::X * half, *at + DVec2::X * half]))
-        .key(Mark::Line(2.4), Ink::Plain, "depths that the map stores")
-        .named(Mark::Line(2.0), Ink::Series(1), &line(small), "disc with a bias of one texel")
-        .named(Mark::Rings(4.0), Ink::Series(1), &pierced, "where it pierces the surface")
-        .named(Mark::Line(2.0), Ink::Series(3), &line(large), "disc with the bias of D-9")
-        .named(Mark::Line(2.0), Ink::Series(0), &cone, "cone of slope 2, no bias")
-        .draw(Mark::Dots(4.5), Ink::Plain, &[DVec2::ZERO])
-        .key(Mark::Dots(4.5), Ink::Plain, "the shading point")
-        .svg()
+    Diagram::new(
+        "One row of a map of a floor tilted 50°; the light is above",
+        DVec2::new(-0.86, -0.55),
+        DVec2::new(0.86, 1.16),
+    )
+    .draw(Mark::Area, Ink::Faint, &solid)
+    .pieces(2.4, Ink::Plain, stored.iter().map(|at| [*at - DVec2::X * half, *at + DVec2::X * half]))
+    .key(Mark::Line(2.4), Ink::Plain, "depths that the map stores")
+    .named(Mark::Line(2.0), Ink::Series(1), &line(small), "disc with a bias of one texel")
+    .named(Mark::Rings(4.0), Ink::Series(1), &pierced, "where it pierces the surface")
+    .named(Mark::Line(2.0), Ink::Series(3), &line(large), "disc with the bias of D-9")
+    .named(Mark::Line(2.0), Ink::Series(0), &cone, "cone of slope 2, no bias")
+    .draw(Mark::Dots(4.5), Ink::Plain, &[DVec2::ZERO])
+    .key(Mark::Dots(4.5), Ink::Plain, "the shading point")
+    .svg()
 }
 
 /// How much of an occluder close above a level receiver is seen at all.
@@ -195,10 +237,8 @@ fn contacts(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
     let step = |height: f64| f64::from(u8::from(height > constant));
     let biased = format!("bias={constant}");
     let mut worst = 0.0f64;
-    let methods: [(&str, &str, &dyn Fn(f64) -> f64); 2] = [
-        ("cone of slope 2", "depth=cone,slope=2,bias=0", &cone),
-        ("constant bias as good at 63.4°", &biased, &step),
-    ];
+    let methods: [(&str, &str, &dyn Fn(f64) -> f64); 2] =
+        [("cone of slope 2", "depth=cone,slope=2,bias=0", &cone), ("constant bias as good at 63.4°", &biased, &step)];
     for (name, depth, expected) in methods {
         let (mut measured, mut predicted) = (Vec::new(), Vec::new());
         for index in 1..=24 {
@@ -214,7 +254,12 @@ fn contacts(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
             .add(Series::dots(&format!("{name}, measured"), measured));
     }
     made.plots.push(("contact".into(), plot.svg()));
-    made.measures.push(Measure::at_most("share of a covering occluder that counts: largest difference from prediction", worst, "share", 0.03));
+    made.measures.push(Measure::at_most(
+        "share of a covering occluder that counts: largest difference from prediction",
+        worst,
+        "share",
+        0.03,
+    ));
     Ok(())
 }
 
@@ -234,7 +279,13 @@ fn pictures(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
         let picture = set.by(cx, &format!("{DISC},{depth}"), &Frame::default())?;
         made.panels.push(shadow_panel(name, &caption, &picture).with("radius", "8 texels").against("truth"));
         let caption = format!("{caption}: less truth");
-        made.panels.push(error_panel(&format!("{name}-error"), &caption, picture.size, &picture.shadow[0], &truth.shadow[0]));
+        made.panels.push(error_panel(
+            &format!("{name}-error"),
+            &caption,
+            picture.size,
+            &picture.shadow[0],
+            &truth.shadow[0],
+        ));
     }
     made.panels.push(truth_panel(&truth));
     Ok(())

@@ -2,9 +2,12 @@
 
 mod all_round;
 mod bump;
+mod burley;
 mod burley_bias;
+mod burley_deep;
 mod curves;
 mod faults;
+mod heights;
 mod paging;
 mod penumbra;
 mod reeves_idea;
@@ -12,6 +15,7 @@ mod reeves_listing;
 mod reeves_parameters;
 mod reeves_scenes;
 mod reeves_tables;
+mod softness;
 mod sphere_plane;
 mod spheres;
 mod studio;
@@ -55,14 +59,19 @@ pub const FIGURES: &[&Figure] = &[
     &bump::BUMP,
     &reeves_tables::T1,
     &reeves_tables::T2,
+    &heights::NOPEN,
     &woo::F1,
     &woo::F2,
     &woo::F3,
     &woo::RIM,
     &woo::COST,
     &burley_bias::I75,
+    &burley::I76,
+    &burley::I77,
+    &burley_deep::DEEP,
     &curves::ACNE,
     &curves::NOISE,
     &faults::FAULTS,
     &paging::PAGING,
+    &softness::SOFTNESS,
 ];
