@@ -15,6 +15,9 @@
 //! | [`Raw`] | every texel |
 //! | [`Bbox`] | the rectangle around all surfaces |
 //! | [`Tiled`] | 32×32 tiles that hold a surface, with their nearest and farthest depth |
+//! | [`DeepMap`] | several surfaces a texel, each letting part of the light through |
+//!
+//! [`TagMap`] keeps objects' ids instead of depths, the baseline of Hourcade & Nicolas.
 //!
 //! ```
 //! use glam::{DVec3, IVec2, UVec2};
@@ -36,6 +39,7 @@
 mod back_face;
 mod bandlimit;
 mod bbox;
+mod deep;
 mod first;
 mod map;
 mod midpoint;
@@ -44,16 +48,19 @@ mod raw;
 mod rows;
 mod rule;
 mod second;
+mod tags;
 mod tiled;
 
 pub use back_face::BackFace;
 pub use bandlimit::bandlimit;
 pub use bbox::Bbox;
+pub use deep::{DeepMap, Step, compress};
 pub use first::First;
 pub use map::DepthMap;
-pub use midpoint::{Midpoint, MidpointCell};
+pub use midpoint::{Midpoint, MidpointCell, Same};
 pub use quantise::{quantise, quantum};
 pub use raw::{MapError, Raw};
 pub use rule::DepthRule;
 pub use second::Second;
+pub use tags::TagMap;
 pub use tiled::{TILE, Tile, Tiled};

@@ -7,12 +7,9 @@ use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
 /// Depths are in the kind of the map's view (C-4), grow away from the light, and are never NaN or −∞ (C-5).
 pub trait DepthMap: Sync {
     /// True when texels hold more than one surface: [`DepthMap::passes`] then says more than a comparison with [`DepthMap::depth`].
-    const DEEP: bool = false;
-
-    /// Whether this map is [deep](DepthMap::DEEP).
     #[inline(always)]
     fn is_deep(&self) -> bool {
-        Self::DEEP
+        false
     }
 
     /// The light's view; it says what the depths mean.
@@ -39,7 +36,7 @@ pub trait DepthMap: Sync {
     }
 
     /// The share of the light that passes all surfaces of a texel nearer than `depth`, in 0..=1; a surface at `depth` itself is not
-    /// nearer (C-7). 1 or 0 unless the map is [deep](DepthMap::DEEP).
+    /// nearer (C-7). 1 or 0 unless the map [is deep](DepthMap::is_deep).
     #[inline(always)]
     fn passes(&self, texel: IVec2, depth: f32) -> f32 {
         if depth > self.depth(texel) { 0.0 } else { 1.0 }

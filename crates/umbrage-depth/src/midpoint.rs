@@ -14,13 +14,26 @@ pub struct Midpoint {
     pub ratio: f32,
     /// Surfaces whose distances differ by no more than this share of the larger are one.
     pub merge: f32,
-    /// Whether only surfaces of the same object are merged.
-    pub same_object: bool,
+    /// Which fragments belong to one surface.
+    pub same: Same,
+}
+
+/// Which fragments of a texel belong to one surface (W92-4).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Same {
+    /// Those at one depth, whatever their objects.
+    #[default]
+    Depth,
+    /// Those at one depth, of one object.
+    Object,
+    /// Those of one object that face the same way, at any depth: for texels that are sampled at several places, where one surface has
+    /// several depths (W92-3). An object that folds over itself loses shadow between its own folds.
+    Surface,
 }
 
 impl Default for Midpoint {
     fn default() -> Self {
-        Self { ratio: 0.5, merge: 1e-6, same_object: false }
+        Self { ratio: 0.5, merge: 1e-6, same: Same::Depth }
     }
 }
 
@@ -31,24 +44,25 @@ pub struct MidpointCell {
     first: f32,
     /// The smallest key among other surfaces.
     second: f32,
-    /// The smallest object id at `first`.
-    object: u32,
+    /// The smallest object id at `first`, and whether its outside is seen there.
+    object: (u32, bool),
 }
 
 impl DepthRule for Midpoint {
     type Cell = MidpointCell;
-    const EMPTY: MidpointCell = MidpointCell { first: f32::INFINITY, second: f32::INFINITY, object: u32::MAX };
+    const EMPTY: MidpointCell = MidpointCell { first: f32::INFINITY, second: f32::INFINITY, object: (u32::MAX, true) };
     const PASSES: u32 = 2;
 
     #[inline(always)]
-    fn add(&self, pass: u32, cell: &mut MidpointCell, key: f32, _front: bool, facet: &Facet) {
+    fn add(&self, pass: u32, cell: &mut MidpointCell, key: f32, front: bool, facet: &Facet) {
+        let object = (facet.object, front);
         if pass == 0 {
             if key < cell.first {
-                (cell.first, cell.object) = (key, facet.object);
+                (cell.first, cell.object) = (key, object);
             } else if key == cell.first {
-                cell.object = cell.object.min(facet.object);
+                cell.object = cell.object.min(object);
             }
-        } else if key < cell.second && !self.is_first(cell, key, facet.object) {
+        } else if key < cell.second && !self.is_first(cell, key, object) {
             cell.second = key;
         }
     }
@@ -68,9 +82,13 @@ impl Midpoint {
     ///
     /// Keys are ζ or −1/ζ; of both, a difference relative to the larger key is one of ζ relative to the larger ζ.
     #[inline(always)]
-    fn is_first(&self, cell: &MidpointCell, key: f32, object: u32) -> bool {
+    fn is_first(&self, cell: &MidpointCell, key: f32, object: (u32, bool)) -> bool {
         let (first, key) = (f64::from(cell.first), f64::from(key));
-        key - first <= f64::from(self.merge) * first.abs().max(key.abs())
-            && !(self.same_object && object != cell.object)
+        let coincide = key - first <= f64::from(self.merge) * first.abs().max(key.abs());
+        match self.same {
+            Same::Depth => coincide,
+            Same::Object => coincide && object.0 == cell.object.0,
+            Same::Surface => object == cell.object,
+        }
     }
 }

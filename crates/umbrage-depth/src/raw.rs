@@ -25,6 +25,17 @@ pub enum MapError {
         /// What it holds.
         value: f32,
     },
+    /// Surfaces of a deep map that are out of order.
+    #[error("texel ({}, {}) of a deep map holds {problem}", .texel.x, .texel.y)]
+    NotSteps {
+        /// The first such texel, by rows from the top.
+        texel: IVec2,
+        /// What is wrong with its surfaces.
+        problem: &'static str,
+    },
+    /// An error bound of a deep map that bounds nothing.
+    #[error("deep map error bound {0} is not within 0..1")]
+    Epsilon(f32),
 }
 
 /// Every texel of a map: 4 bytes each, row by row from the top (R87-4, V26).

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, UVec2};
 use proptest::prelude::*;
-use umbrage_depth::{BackFace, DepthRule, First, Midpoint, Second};
+use umbrage_depth::{BackFace, DepthRule, First, Midpoint, Same, Second};
 use umbrage_plane::{Affine, Facet, Facing, Kind, View};
 
 /// One surface over a texel.
@@ -154,7 +154,7 @@ fn w92_4_surfaces_merge_within_the_tolerance_and_by_object_if_asked() {
         assert!(stored(&Midpoint { merge: 0.0, ..same }, &view, &[front(5.0), front(near)]) < 5.1);
     }
     let of = |object: u32, zeta: f64| Fragment { object, ..front(zeta) };
-    let by_object = Midpoint { same_object: true, ..same };
+    let by_object = Midpoint { same: Same::Object, ..same };
     for order in orders(&[of(1, 5.0), of(2, 5.0), of(1, 9.0)]) {
         assert_eq!(stored(&same, &orthographic(), &order), 7.0);
         assert_eq!(stored(&by_object, &orthographic(), &order), 5.0);
@@ -202,8 +202,9 @@ macro_rules! every_rule {
         $law("second", &Second $(, $more)*);
         $law("back face", &BackFace $(, $more)*);
         $law("midpoint", &Midpoint::default() $(, $more)*);
-        $law("midpoint by object", &Midpoint { same_object: true, ..Midpoint::default() } $(, $more)*);
-        $law("quarter point, unmerged", &Midpoint { ratio: 0.25, merge: 0.0, same_object: false } $(, $more)*);
+        $law("midpoint by object", &Midpoint { same: Same::Object, ..Midpoint::default() } $(, $more)*);
+        $law("midpoint by surface", &Midpoint { same: Same::Surface, ..Midpoint::default() } $(, $more)*);
+        $law("quarter point, unmerged", &Midpoint { ratio: 0.25, merge: 0.0, same: Same::Depth } $(, $more)*);
     };
 }
 
@@ -258,7 +259,7 @@ proptest! {
         let once: Vec<_> = zetas.iter().map(|&zeta| front(zeta)).collect();
         let twice: Vec<_> = once.iter().chain(&once).copied().collect();
         for view in [orthographic(), perspective()] {
-            let whole = Midpoint { ratio: 1.0, merge: 0.0, same_object: false };
+            let whole = Midpoint { ratio: 1.0, merge: 0.0, same: Same::Depth };
             prop_assert_eq!(stored(&whole, &view, &once), stored(&Second, &view, &once));
             let mid = Midpoint::default();
             prop_assert_eq!(stored(&mid, &view, &once), stored(&mid, &view, &twice));

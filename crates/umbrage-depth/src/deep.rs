@@ -1,0 +1,177 @@
+use crate::{DepthMap, MapError, rows};
+use glam::{IVec2, Vec3};
+use std::sync::Arc;
+use umbrage_plane::{TexelRect, View};
+
+/// One surface of a texel of a [`DeepMap`], and what of the light is left behind it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// Its depth, in the kind of the map's view.
+    pub depth: f32,
+    /// Share of the light that passes everything up to and with this surface, linear RGB in 0..=1.
+    pub passes: Vec3,
+}
+
+/// Several surfaces a texel, each letting part of the light through: a deep shadow map (Lokovic & Veach 2000, as Burley 2006 uses it; B06-11,
+/// EXT-3).
+///
+/// A texel's transmittance is 1 down to its first surface and steps down at each: a surface at a depth does not shadow that depth (C-7, V56).
+/// As a [`DepthMap`] it answers with the nearest surface, opaque or not (T-19), and with what [passes](DepthMap::passes); clones share their texels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DeepMap {
+    texels: Arc<Texels>,
+    /// The one channel that it stands for; all of them without.
+    channel: Option<usize>,
+}
+
+#[derive(Debug, PartialEq)]
+struct Texels {
+    view: View,
+    epsilon: f32,
+    /// Where each texel's steps begin, row by row; one entry more than texels.
+    starts: Vec<usize>,
+    steps: Vec<Step>,
+    grey: bool,
+}
+
+impl DeepMap {
+    /// From the steps of each texel of `view`, row by row, row 0 on top; none where there is no surface. They are kept as they are: see
+    /// [`compress`]. `epsilon` tells how far they may stand from what they were made from, 0 for not at all.
+    ///
+    /// # Errors
+    /// When texels are missing or left over, depths of a texel do not ascend, are not finite or reach 1e30, or what passes is outside 0..=1 or grows;
+    /// and for an `epsilon` outside 0..1.
+    pub fn new(view: View, epsilon: f32, texels: impl IntoIterator<Item = Vec<Step>>) -> Result<Self, MapError> {
+        if !(0.0..1.0).contains(&epsilon) {
+            return Err(MapError::Epsilon(epsilon));
+        }
+        let size = view.size();
+        let (mut starts, mut all, mut grey) = (vec![0], Vec::new(), true);
+        for (texel, steps) in TexelRect::of_size(size).texels().zip(texels.into_iter().by_ref()) {
+            let mut before = Step { depth: f32::NEG_INFINITY, passes: Vec3::ONE };
+            for step in steps {
+                let problem = if rows::kept(step.depth) == f32::INFINITY {
+                    "a depth that is none"
+                } else if step.depth <= before.depth {
+                    "depths that do not ascend"
+                } else if !(step.passes.cmpge(Vec3::ZERO) & step.passes.cmple(before.passes)).all() {
+                    "a transmittance that grows, or is not within 0 and 1"
+                } else {
+                    grey &= step.passes == Vec3::splat(step.passes.x);
+                    all.push(step);
+                    before = step;
+                    continue;
+                };
+                return Err(MapError::NotSteps { texel, problem });
+            }
+            starts.push(all.len());
+        }
+        let wanted = size.x as usize * size.y as usize;
+        if starts.len() != wanted + 1 {
+            return Err(MapError::Length { width: size.x, height: size.y, found: starts.len() - 1 });
+        }
+        let texels = Arc::new(Texels { view, epsilon, starts, steps: all, grey });
+        Ok(Self { texels, channel: None })
+    }
+
+    /// How far a transmittance may stand from the one it was made from, in every channel and at every depth.
+    pub fn epsilon(&self) -> f32 {
+        self.texels.epsilon
+    }
+
+    /// The surfaces of a texel, nearest first; none outside the map.
+    #[inline(always)]
+    pub fn steps(&self, texel: IVec2) -> &[Step] {
+        let rect = TexelRect::of_size(self.texels.view.size());
+        if !rect.contains(texel) {
+            return &[];
+        }
+        let index = texel.y as usize * rect.size().x as usize + texel.x as usize;
+        &self.texels.steps[self.texels.starts[index]..self.texels.starts[index + 1]]
+    }
+
+    /// Share of the light that passes all surfaces of a texel nearer than `depth`, linear RGB.
+    #[inline(always)]
+    pub fn transmittance(&self, texel: IVec2, depth: f32) -> Vec3 {
+        transmittance(self.steps(texel), depth)
+    }
+}
+
+/// What passes the steps nearer than `depth`.
+#[inline(always)]
+fn transmittance(steps: &[Step], depth: f32) -> Vec3 {
+    let nearer = steps.partition_point(|step| step.depth < depth);
+    if nearer == 0 { Vec3::ONE } else { steps[nearer - 1].passes }
+}
+
+impl DepthMap for DeepMap {
+    #[inline(always)]
+    fn is_deep(&self) -> bool {
+        true
+    }
+
+    fn view(&self) -> &View {
+        &self.texels.view
+    }
+
+    #[inline(always)]
+    fn depth(&self, texel: IVec2) -> f32 {
+        self.steps(texel).first().map_or(f32::INFINITY, |step| step.depth)
+    }
+
+    /// The mean over red, green and blue, or the one channel that this map stands for.
+    #[inline(always)]
+    fn passes(&self, texel: IVec2, depth: f32) -> f32 {
+        let passes = self.transmittance(texel, depth);
+        match self.channel {
+            Some(channel) => passes[channel],
+            None if self.texels.grey => passes.x,
+            None => passes.element_sum() * (1.0 / 3.0),
+        }
+    }
+
+    fn colours(&self) -> Option<[Self; 3]> {
+        let one = |channel| Self { texels: Arc::clone(&self.texels), channel: Some(channel) };
+        (!self.texels.grey).then(|| [one(0), one(1), one(2)])
+    }
+
+    /// 16 a surface: its depth and three transmittances.
+    fn bytes(&self) -> usize {
+        size_of_val(self.texels.steps.as_slice())
+    }
+}
+
+/// Fewer steps that stand nowhere farther than `epsilon` from the given ones, in any channel (EXT-3): each kept step stands for the longest
+/// run of levels that one number is near enough to. No other choice of levels has fewer steps, since levels only fall.
+///
+/// The first surface keeps its depth and nothing is dark before it, so that searches find it where it was (B06-11). 0 loses nothing but steps at
+/// which nothing changes. `steps` must be as in [`DeepMap::new`].
+pub fn compress(steps: &[Step], epsilon: f32) -> Vec<Step> {
+    let mut kept: Vec<Step> = Vec::new();
+    let mut start = 0;
+    while start < steps.len() {
+        let first = steps[start];
+        let fits = |end: &usize| level(first.passes, steps[*end].passes, epsilon).is_some();
+        let end = (start + 1..steps.len()).take_while(fits).last().unwrap_or(start);
+        let (last, wanted) = (steps[end].passes, end + 1 == steps.len());
+        // At the end the light that really is left, if it is near enough to the whole run: what is opaque stays so.
+        let exact = wanted && (first.passes - last).as_dvec3().cmple(glam::DVec3::splat(f64::from(epsilon))).all();
+        let passes = if exact { last } else { level(first.passes, last, epsilon).unwrap_or(first.passes) };
+        let unchanged = kept.last().is_some_and(|before| before.passes == passes);
+        if !unchanged {
+            kept.push(Step { depth: first.depth, passes });
+        }
+        start = end + 1;
+    }
+    kept
+}
+
+/// A level between `high` and `low` that is within `epsilon` of both, channel by channel, rounding included.
+fn level(high: Vec3, low: Vec3, epsilon: f32) -> Option<Vec3> {
+    let between = (high + low) * 0.5;
+    let near = |level: Vec3| {
+        let far = (high.as_dvec3() - level.as_dvec3()).abs().max((level.as_dvec3() - low.as_dvec3()).abs());
+        far.max_element() <= f64::from(epsilon)
+    };
+    [between, high, low].into_iter().find(|level| near(*level))
+}
