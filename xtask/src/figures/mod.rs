@@ -10,9 +10,12 @@ mod reeves_listing;
 mod reeves_parameters;
 mod reeves_scenes;
 mod reeves_tables;
+mod slice;
 mod sphere_plane;
 mod spheres;
 mod studio;
+mod wang_molnar_ideas;
+mod wang_molnar_second;
 mod williams_scenes;
 mod williams_shadow;
 mod williams_views;
@@ -58,6 +61,11 @@ pub const FIGURES: &[&Figure] = &[
     &woo::F3,
     &woo::RIM,
     &woo::COST,
+    &wang_molnar_ideas::F1,
+    &wang_molnar_ideas::F2,
+    &wang_molnar_ideas::F3,
+    &wang_molnar_second::F5,
+    &wang_molnar_second::F6,
     &curves::ACNE,
     &curves::NOISE,
     &faults::FAULTS,
