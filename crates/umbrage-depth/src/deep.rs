@@ -47,7 +47,8 @@ impl DeepMap {
         }
         let size = view.size();
         let (mut starts, mut all, mut grey) = (vec![0], Vec::new(), true);
-        for (texel, steps) in TexelRect::of_size(size).texels().zip(texels.into_iter().by_ref()) {
+        let mut texels = texels.into_iter();
+        for (texel, steps) in TexelRect::of_size(size).texels().zip(texels.by_ref()) {
             let mut before = Step { depth: f32::NEG_INFINITY, passes: Vec3::ONE };
             for step in steps {
                 let problem = if rows::kept(step.depth) == f32::INFINITY {
@@ -67,8 +68,9 @@ impl DeepMap {
             starts.push(all.len());
         }
         let wanted = size.x as usize * size.y as usize;
-        if starts.len() != wanted + 1 {
-            return Err(MapError::Length { width: size.x, height: size.y, found: starts.len() - 1 });
+        let found = starts.len() - 1 + texels.count();
+        if found != wanted {
+            return Err(MapError::Length { width: size.x, height: size.y, found });
         }
         let texels = Arc::new(Texels { view, epsilon, starts, steps: all, grey });
         Ok(Self { texels, channel: None })

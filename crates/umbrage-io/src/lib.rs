@@ -1,7 +1,9 @@
-//! Shadow maps as EXR, pictures as PNG and EXR, one safe way to write a file.
+//! Shadow maps as EXR, flat and deep, pictures as PNG and EXR, one safe way to write a file.
 //!
 //! * [`write_shadow_map`] and [`read_shadow_map`]: a depth map with its view, bit for bit (R87-4), in a file that other
 //!   tools read: tiled, channel `Z`, `worldToCamera`, `worldToNDC`, `near`, `far`, `textureformat = "Shadow"`.
+//! * [`write_deep_map`] and [`read_deep_map`]: all surfaces of each texel with what passes them (B06-11, EXT-3), bit for bit, as deep
+//!   scan lines that other tools composite: channels `Z` and `A` or `AR`, `AG`, `AB`.
 //! * [`Paged`]: the same file with only the tiles looked at last in memory (R87-20).
 //! * [`write_png`], [`write_png_grey`], [`write_exr`]: pictures from linear light (X-7); [`read_png`] for comparing.
 //! * [`depth_view`] and [`replicate`]: a map as a grey picture, a zoom without invention.
@@ -21,6 +23,7 @@
 //! ```
 
 mod cube;
+mod deep_map;
 mod depth_view;
 mod error;
 mod file;
@@ -29,6 +32,9 @@ mod picture;
 mod shadow_map;
 
 pub use cube::opengl_cube_face;
+pub use deep_map::{
+    DEFAULT_DEEP_BUDGET, decode_deep_map, encode_deep_map, read_deep_map, read_deep_map_within, write_deep_map,
+};
 pub use depth_view::depth_view;
 pub use error::{Fault, IoError};
 pub use file::{write_atomic, write_bytes};

@@ -53,7 +53,7 @@ impl Gather<'_> {
         self.bins.tile(tile, |facet, coverage| {
             let index = facets.len() as u32;
             facets.push(*facet);
-            each_fragment(self.view, origin, facet, coverage, |cell, key| {
+            each_fragment(self.view, origin, facet, coverage, |cell, _, key| {
                 if key < nearest {
                     return;
                 }

@@ -1,7 +1,7 @@
 use crate::recipe::Storage;
 use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
-use umbrage_depth::{Bbox, DepthMap, Raw, Tiled};
+use umbrage_depth::{Bbox, DeepMap, DepthMap, Raw, Tiled};
 use umbrage_plane::{DepthRange, TexelRect, View};
 
 /// A light's map in whichever form it is kept: one type for all, so that each filter is compiled once.
@@ -13,6 +13,8 @@ pub enum Map {
     Bbox(Bbox),
     /// Tiles: what pass 1 makes.
     Tiled(Tiled),
+    /// Several surfaces a texel, each letting light through.
+    Deep(DeepMap),
 }
 
 /// The same of whichever map it is.
@@ -22,6 +24,7 @@ macro_rules! each {
             Map::Raw($map) => $answer,
             Map::Bbox($map) => $answer,
             Map::Tiled($map) => $answer,
+            Map::Deep($map) => $answer,
         }
     };
 }
@@ -31,7 +34,8 @@ impl Map {
     #[must_use]
     pub fn kept(self, storage: Storage) -> Self {
         match (storage, self) {
-            (Storage::Raw, kept @ Self::Raw(_))
+            (_, kept @ Self::Deep(_))
+            | (Storage::Raw, kept @ Self::Raw(_))
             | (Storage::Bbox, kept @ Self::Bbox(_))
             | (Storage::Tiled, kept @ Self::Tiled(_)) => kept,
             (Storage::Raw, map) => Self::Raw(Raw::copy_of(&map)),
@@ -59,7 +63,18 @@ impl From<&Self> for Map {
     }
 }
 
+impl From<DeepMap> for Map {
+    fn from(map: DeepMap) -> Self {
+        Self::Deep(map)
+    }
+}
+
 impl DepthMap for Map {
+    #[inline(always)]
+    fn is_deep(&self) -> bool {
+        matches!(self, Self::Deep(_))
+    }
+
     #[inline(always)]
     fn view(&self) -> &View {
         each!(self, map => map.view())
@@ -83,6 +98,13 @@ impl DepthMap for Map {
     #[inline(always)]
     fn passes(&self, texel: IVec2, depth: f32) -> f32 {
         each!(self, map => map.passes(texel, depth))
+    }
+
+    fn colours(&self) -> Option<[Self; 3]> {
+        match self {
+            Self::Deep(map) => map.colours().map(|maps| maps.map(Self::Deep)),
+            _ => None,
+        }
     }
 
     fn bytes(&self) -> usize {

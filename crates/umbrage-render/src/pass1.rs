@@ -1,7 +1,7 @@
-use glam::{IVec2, UVec2};
+use glam::{DVec2, IVec2, UVec2};
 use rayon::prelude::*;
 use umbrage_depth::{DepthRule, Tile, Tiled};
-use umbrage_plane::{Facet, Facing, TexelRect, View};
+use umbrage_plane::{Facet, Facing, TexelRect, View, ViewError};
 use umbrage_raster::{Bins, Coverage, Cull, Stats, TILE, Triangle};
 
 /// A depth map, and what became of the triangles.
@@ -21,13 +21,26 @@ pub struct Baked {
 /// maximum. Tiles that nobody touches are never allocated. What is nearer than the near plane is stored at the
 /// near plane (C-10). The result does not depend on the number of threads.
 pub fn bake<R: DepthRule>(view: &View, triangles: impl IntoIterator<Item = Triangle>, rule: &R, cull: Cull) -> Baked {
-    let bins = Bins::new(view, TexelRect::of_size(view.size()), cull, triangles);
-    let tiles = bins.tiles();
-    let (made, fragments): (Vec<Option<Tile>>, Vec<u64>) = (0..tiles.x * tiles.y)
-        .into_par_iter()
-        .map(|index| tile(view, &bins, UVec2::new(index % tiles.x, index / tiles.x), rule))
-        .unzip();
-    Baked { map: Tiled::from_tiles(*view, made), stats: bins.stats(), fragments: fragments.iter().sum() }
+    Pass { view, fine: view, rule, front: |facet: &Facet, _| facet.facing == Facing::Front }.run(triangles, cull)
+}
+
+/// [`bake`] with `axis` × `axis` samples a texel, all of whose fragments count for the texel: what *hits* it, not what lies at one place
+/// (W92-3).
+///
+/// First depths then are the nearest over the texel. Midpoints need [`Same::Surface`](umbrage_depth::Same::Surface), as one surface has several
+/// depths there.
+///
+/// # Errors
+/// When the samples are more than a view may have: the map's sides times `axis`, 0 included.
+pub fn bake_multi<R: DepthRule>(
+    view: &View,
+    triangles: impl IntoIterator<Item = Triangle>,
+    rule: &R,
+    cull: Cull,
+    axis: u32,
+) -> Result<Baked, ViewError> {
+    let fine = view.with_size(view.size().saturating_mul(UVec2::splat(axis)))?;
+    Ok(Pass { view, fine: &fine, rule, front: |facet: &Facet, _| facet.facing == Facing::Front }.run(triangles, cull))
 }
 
 /// What Reeves advises for a light's map: from once to twice the picture's resolution along each axis, starting with once
@@ -36,43 +49,87 @@ pub fn advised_map_sizes(picture: UVec2) -> (UVec2, UVec2) {
     (picture, picture * 2)
 }
 
-fn tile<R: DepthRule>(view: &View, bins: &Bins, tile: UVec2, rule: &R) -> (Option<Tile>, u64) {
-    const CELLS: usize = (TILE * TILE) as usize;
-    let origin = (tile * TILE).as_ivec2();
-    let mut cells: Option<Box<[R::Cell; CELLS]>> = None;
-    let mut fragments = 0;
-    for pass in 0..R::PASSES {
-        bins.tile(tile, |facet, coverage| {
-            let cells = cells.get_or_insert_with(|| Box::new([R::EMPTY; CELLS]));
-            let front = facet.facing == Facing::Front;
-            each_fragment(view, origin, facet, coverage, |cell, key| {
-                rule.add(pass, &mut cells[cell], key, front, facet);
-                fragments += u64::from(pass == 0);
-            });
-        });
-    }
-    let Some(cells) = cells else { return (None, 0) };
-    let decode = view.decode();
-    let nearest = view.key(view.near()) as f32;
-    let mut depths = Box::new([f32::INFINITY; CELLS]);
-    for (index, depth) in depths.iter_mut().enumerate() {
-        let texel = origin + IVec2::new(index as i32 % TILE as i32, index as i32 / TILE as i32);
-        let at = view.sampling().position(texel);
-        // Clamped only now: a rule must tell surfaces apart that are all nearer than the near plane.
-        *depth = rule.resolve(cells[index], &decode, at).max(decode.depth(nearest, at));
-    }
-    let valid = (view.size() - tile * TILE).min(UVec2::splat(TILE));
-    (Tile::new(depths, valid), fragments)
+/// One pass 1: which depth rule, which samples, and which side of a facet is seen there.
+pub(crate) struct Pass<'a, R, F> {
+    /// The map's view.
+    pub view: &'a View,
+    /// The same with a whole number of samples along each side of a texel.
+    pub fine: &'a View,
+    pub rule: &'a R,
+    /// Whether a facet's outside is seen at a sample of `fine`.
+    pub front: F,
 }
 
-/// Calls `each` with every covered texel of a tile: its index in the tile and its key.
+/// Cells of a tile.
+const CELLS: usize = (TILE * TILE) as usize;
+
+impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
+    /// Draws, reduces and resolves.
+    pub fn run(&self, triangles: impl IntoIterator<Item = Triangle>, cull: Cull) -> Baked {
+        let bins = Bins::new(self.fine, TexelRect::of_size(self.fine.size()), cull, triangles);
+        let grid = self.view.size().map(|side| side.div_ceil(TILE));
+        let (made, fragments): (Vec<Option<Tile>>, Vec<u64>) = (0..grid.x * grid.y)
+            .into_par_iter()
+            .map(|index| {
+                let tile = UVec2::new(index % grid.x, index / grid.x);
+                let (cells, fragments) = self.cells(&bins, tile);
+                (cells.and_then(|cells| self.resolve(&cells, tile)), fragments)
+            })
+            .unzip();
+        Baked { map: Tiled::from_tiles(*self.view, made), stats: bins.stats(), fragments: fragments.iter().sum() }
+    }
+
+    /// A tile's cells after all fragments, `None` where there were none, and the number of fragments.
+    pub fn cells(&self, bins: &Bins, tile: UVec2) -> (Option<Box<[R::Cell; CELLS]>>, u64) {
+        let axis = self.fine.size().x / self.view.size().x;
+        let first = (tile * TILE).as_ivec2();
+        let mut cells: Option<Box<[R::Cell; CELLS]>> = None;
+        let mut fragments = 0;
+        for pass in 0..R::PASSES {
+            for part in 0..axis * axis {
+                let part = tile * axis + UVec2::new(part % axis, part / axis);
+                let origin = (part * TILE).as_ivec2();
+                bins.tile(part, |facet, coverage| {
+                    let cells = cells.get_or_insert_with(|| Box::new([R::EMPTY; CELLS]));
+                    each_fragment(self.fine, origin, facet, coverage, |cell, at, key| {
+                        let front = (self.front)(facet, at);
+                        let cell = if axis == 1 {
+                            cell
+                        } else {
+                            let texel = (at / f64::from(axis)).as_ivec2() - first;
+                            (texel.y * TILE as i32 + texel.x) as usize
+                        };
+                        self.rule.add(pass, &mut cells[cell], key, front, facet);
+                        fragments += u64::from(pass == 0);
+                    });
+                });
+            }
+        }
+        (cells, fragments)
+    }
+
+    fn resolve(&self, cells: &[R::Cell; CELLS], tile: UVec2) -> Option<Tile> {
+        let decode = self.view.decode();
+        let nearest = self.view.key(self.view.near()) as f32;
+        let mut depths = Box::new([f32::INFINITY; CELLS]);
+        for (index, depth) in depths.iter_mut().enumerate() {
+            let texel = (tile * TILE).as_ivec2() + IVec2::new(index as i32 % TILE as i32, index as i32 / TILE as i32);
+            let at = self.view.sampling().position(texel);
+            // Clamped only now: a rule must tell surfaces apart that are all nearer than the near plane.
+            *depth = self.rule.resolve(cells[index], &decode, at).max(decode.depth(nearest, at));
+        }
+        Tile::new(depths, (self.view.size() - tile * TILE).min(UVec2::splat(TILE)))
+    }
+}
+
+/// Calls `each` with every covered texel of a tile: its index in the tile, the place of its sample and its key there.
 #[inline(always)]
 pub(crate) fn each_fragment(
     view: &View,
     origin: IVec2,
     facet: &Facet,
     coverage: &Coverage,
-    mut each: impl FnMut(usize, f32),
+    mut each: impl FnMut(usize, DVec2, f32),
 ) {
     for row in coverage.first..coverage.end {
         let mut bits = coverage.rows[usize::from(row)];
@@ -80,7 +137,8 @@ pub(crate) fn each_fragment(
             let column = bits.trailing_zeros();
             bits &= bits - 1;
             let texel = origin + IVec2::new(column as i32, i32::from(row));
-            each(usize::from(row) * TILE as usize + column as usize, facet.key(view.sampling(), texel));
+            let at = view.sampling().position(texel);
+            each(usize::from(row) * TILE as usize + column as usize, at, facet.plane.at(at) as f32);
         }
     }
 }

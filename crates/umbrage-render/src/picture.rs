@@ -19,6 +19,9 @@ pub struct Frame {
     pub stochastic: bool,
     /// Shades every sample by itself instead of once per surface and pixel: slow, and what truth is made with.
     pub every_sample: bool,
+    /// Gives shadows the interpolated normal instead of the geometric one: the plane that Wang & Molnar fit where surfaces are shaded
+    /// smoothly (WM94-11).
+    pub smooth: bool,
     /// Seed of the camera's jitter and of the shadows' keys.
     pub seed: u32,
     /// Number of the frame (R87-25): another frame, other random numbers. Keep it constant for static noise.
@@ -28,13 +31,14 @@ pub struct Frame {
 impl Default for Frame {
     /// 16 stochastic samples a pixel, shaded once per surface.
     fn default() -> Self {
-        Self { axis: 4, stochastic: true, every_sample: false, seed: 0, number: 0 }
+        Self { axis: 4, stochastic: true, every_sample: false, smooth: false, seed: 0, number: 0 }
     }
 }
 
 impl Frame {
     /// One sample at each pixel's centre.
-    pub const CENTRES: Self = Self { axis: 1, stochastic: false, every_sample: false, seed: 0, number: 0 };
+    pub const CENTRES: Self =
+        Self { axis: 1, stochastic: false, every_sample: false, smooth: false, seed: 0, number: 0 };
 
     /// The camera with this frame's samples as its texels.
     pub fn sample_view(&self, camera: &View) -> View {
@@ -149,7 +153,11 @@ struct TileOut {
 
 fn finish_tile(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame, gather: &Gather, tile: UVec2) -> TileOut {
     let (regions, fragments, passing) = gather.tile(tile);
-    let points: Vec<SurfacePoint> = regions.iter().map(|region| region.point).collect();
+    let point = |region: &Region| {
+        let normal = if frame.smooth { region.shading_normal } else { region.point.normal };
+        SurfacePoint { normal, ..region.point }
+    };
+    let points: Vec<SurfacePoint> = regions.iter().map(point).collect();
     let mut answers: Vec<Answer> = vec![Answer::lit(points.len()); scene.lights.len()];
     for (light, (shadow, answer)) in shadows.iter().zip(&mut answers).enumerate() {
         if scene.lights[light].casts {

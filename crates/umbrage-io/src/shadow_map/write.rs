@@ -1,9 +1,9 @@
 use super::{matrices, text};
 use crate::error::Fault;
 use exr::block::{self, BlockIndex, writer::ChunksWriter};
+use exr::meta::BlockDescription;
 use exr::meta::attribute::{LevelMode, TileDescription};
 use exr::meta::header::{Header, LayerAttributes};
-use exr::meta::BlockDescription;
 use exr::prelude::{AttributeValue, ChannelDescription, Compression, IntegerBounds, LineOrder, SampleType, Text, Vec2};
 use glam::IVec2;
 use std::io::Cursor;

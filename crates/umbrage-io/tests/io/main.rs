@@ -1,5 +1,7 @@
 //! Files in and out of `umbrage-io`.
 
+mod deep_hostile;
+mod deep_maps;
 mod files;
 mod hostile;
 mod paged;

@@ -6,8 +6,7 @@ use crate::Map;
 use umbrage_sample::Tent;
 use umbrage_shadow::{Conditional, Shadow, VirtualWhen, presets};
 
-pub const FIELDS: &str =
-    "stored, ratio, merge, nearby, pattern, res-factor, min-size, bias, slack, virtual, min-cos or backs";
+pub const FIELDS: &str = "stored, ratio, merge, epsilon, sub-samples, nearby, pattern, res-factor, min-size, bias, slack, virtual, min-cos or backs";
 
 /// The named parts of a recipe of second surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]

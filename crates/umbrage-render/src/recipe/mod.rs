@@ -85,8 +85,9 @@ impl RecipeError {
 ///
 /// | field | of | values |
 /// |---|---|---|
-/// | `stored` | all | `first`, `second`, `back-face`, `midpoint` |
+/// | `stored` | all | `first`, `second`, `back-face`, `normals` (back faces by interpolated normals), `midpoint`, `deep` |
 /// | `ratio`, `merge` | midpoint | part of the way above 0 to 1; share of the distance within which surfaces are one |
+/// | `epsilon`, `sub-samples` | deep | error bound from 0, below 1; samples along a texel's side, 1 to 8 |
 /// | `pattern` | reeves87, woo92 | `jittered`, `uniform`, `gaussian`, `inside`, `warp`, `every`, `tent`, `centre`, `disc` |
 /// | `samples`, `min-samples` | reeves87, woo92 | counts from 1, the second at most the first |
 /// | `jitter` | reeves87, woo92 | part of a cell, 0 (a regular grid) to 1 |
@@ -170,7 +171,13 @@ impl FromStr for Recipe {
 impl Recipe {
     /// Pass 1: the map that this recipe wants of a light's view.
     pub fn bake(&self, scene: &Scene, view: &View) -> Map {
-        self.stored.bake(scene, view)
+        self.bake_moments(&[scene], view)
+    }
+
+    /// The same over an exposure, `moments` being the scene at evenly spread times: deep maps hold the mean of them (EXT-2), maps of one surface
+    /// see the first. An empty map of none.
+    pub fn bake_moments(&self, moments: &[&Scene], view: &View) -> Map {
+        self.stored.bake(moments, view)
     }
 
     /// The algorithm over a map.
@@ -211,7 +218,7 @@ impl Method {
             Self::Reeves(_) => reeves::FIELDS,
             Self::WangMolnar(_) => conditional::FIELDS,
             Self::Burley(_) => soft::FIELDS,
-            Self::Ordinary(_) => "stored, ratio, merge, bias or res-factor",
+            Self::Ordinary(_) => "stored, ratio, merge, epsilon, sub-samples, bias or res-factor",
         }
     }
 }
@@ -298,7 +305,8 @@ mod tests {
 
     #[test]
     fn wm94_6_neighbourhoods_by_name() {
-        for (text, wanted) in [("four", (0.0, 1.0)), ("region", (1.0, 1.0)), ("box3", (0.0, 1.5)), ("box9", (0.0, 4.5))] {
+        for (text, wanted) in [("four", (0.0, 1.0)), ("region", (1.0, 1.0)), ("box3", (0.0, 1.5)), ("box9", (0.0, 4.5))]
+        {
             let recipe: Recipe = format!("wang-molnar94,nearby={text}").parse().unwrap();
             let Method::WangMolnar(found) = recipe.method else { panic!("wang-molnar94") };
             assert_eq!((found.filter.res_factor, found.filter.min_size), wanted, "{text}");

@@ -10,7 +10,7 @@ use umbrage_sample::{
 };
 use umbrage_shadow::{Biased, IntegerFirst, Pcf, ReceiverDepth, Shadow};
 
-pub const FIELDS: &str = "stored, ratio, merge, pattern, samples, min-samples, jitter, hard-cap, compare, res-factor, min-size, bias, spread, depth, slope, radius or slack";
+pub const FIELDS: &str = "stored, ratio, merge, epsilon, sub-samples, pattern, samples, min-samples, jitter, hard-cap, compare, res-factor, min-size, bias, spread, depth, slope, radius or slack";
 
 /// The named parts of a percentage-closer recipe.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,7 +8,7 @@ use umbrage_plane::Bias;
 use umbrage_sample::{Density, Disc};
 use umbrage_shadow::{Biased, Falloff, Opacity, ReceiverDepth, Shadow, Soft, Softness, presets};
 
-pub const FIELDS: &str = "stored, ratio, merge, min, max, light, nearest, search, blur, rotate, half-offset, rescue, falloff, shape, opacity, opacity-shape, fade, bias, spread, depth, slope, radius or slack";
+pub const FIELDS: &str = "stored, ratio, merge, epsilon, sub-samples, min, max, light, nearest, search, blur, rotate, half-offset, rescue, falloff, shape, opacity, opacity-shape, fade, bias, spread, depth, slope, radius or slack";
 
 /// The named parts of a soft recipe.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,8 @@ use super::values::{bias, number, one_of, up_to_two};
 use umbrage_shadow::Williams;
 use umbrage_shadow::williams::{DitherLaw, Guard, Lookup};
 
-pub const FIELDS: &str = "stored, ratio, merge, bias, lookup, guard, dither, dither-law or dither-depth";
+pub const FIELDS: &str =
+    "stored, ratio, merge, epsilon, sub-samples, bias, lookup, guard, dither, dither-law or dither-depth";
 
 pub fn set(williams: &mut Williams, field: &str, value: &str) -> Set {
     match field {

@@ -1,0 +1,106 @@
+//! Deep maps as deep EXR files (B06-11, EXT-3).
+//!
+//! One part, `deepscanline`, ZIPS, display and data window and the attributes of the view as in flat maps. A sample is a surface; those of a
+//! texel ascend in depth. All channels are 32-bit floats:
+//!
+//! | channel | of a sample |
+//! |---|---|
+//! | `Z` | the depth |
+//! | `A` | the opacity of this surface alone, to the mean of red, green and blue |
+//! | `AR`, `AG`, `AB` | the same to one of them, as OpenEXR has it for coloured shadows; in coloured maps only |
+//! | `passes.R`, `passes.G`, `passes.B` | what passes this surface and all before it; in coloured maps only |
+//! | `passes.Y` | the same in grey maps |
+//!
+//! Compositing a texel's samples over `A`, or over `AR`, `AG`, `AB` each for itself, gives 1 − transmittance to within roundings.
+//! Opacities do not keep every bit: next to 1 nothing is left of a small rest. `passes` does, and is what is read again; `A` to `AB` must
+//! then belong to it. The bound of the map is in `epsilon`; view and digest are in `comments` as in flat maps.
+
+mod columns;
+mod opacity;
+mod packing;
+mod read;
+mod write;
+
+use crate::error::{Fault, IoError};
+use crate::file::{read_bytes, write_bytes};
+use std::path::Path;
+use umbrage_depth::{DeepMap, DepthMap, Step};
+use umbrage_plane::TexelRect;
+
+/// Most texels, and most steps of all texels together, that [`read_deep_map`] takes: 67,108,864, which is 1 GiB of steps.
+pub const DEFAULT_DEEP_BUDGET: u64 = 1 << 26;
+
+/// The attribute that holds the bound of a map's compression.
+const EPSILON: &str = "epsilon";
+
+/// The channels of a map through which all light passes alike, in the order that files need.
+const GREY: [&str; 3] = ["A", "Z", "passes.Y"];
+
+/// The channels of the others.
+const COLOUR: [&str; 8] = ["A", "AB", "AG", "AR", "Z", "passes.B", "passes.G", "passes.R"];
+
+/// A deep map's file as bytes; the same bytes for the same map.
+///
+/// # Errors
+/// A [`Fault`] when a row of texels takes more than 1 GiB.
+pub fn encode_deep_map(map: &DeepMap) -> Result<Vec<u8>, Fault> {
+    write::encode(map)
+}
+
+/// Writes a deep map's file, as a whole or not at all.
+///
+/// # Errors
+/// [`IoError`], when the system refuses or a row of texels takes more than 1 GiB.
+pub fn write_deep_map(path: &Path, map: &DeepMap) -> Result<(), IoError> {
+    write_bytes(path, &encode_deep_map(map).map_err(|fault| fault.in_file(path))?)
+}
+
+/// Reads a deep map: view, bound and steps equal those that were written bit for bit (B06-11).
+///
+/// Files of other makers are taken when they have one part `deepscanline` with a channel `Z` of 32-bit floats, `A` or `AR`, `AG`, `AB`,
+/// and the four attributes of a flat map. Their samples are surfaces: in any order, those at one depth together, `ZBack` not looked at.
+/// Their bound is 0 without an attribute `epsilon`. Depths of 1e30 and more count as no surface (C-5).
+///
+/// # Errors
+/// [`IoError`]: one line with the file, the field and its value, when the system refuses or the file is damaged, hostile, too large
+/// ([`DEFAULT_DEEP_BUDGET`]) or no deep map.
+pub fn read_deep_map(path: &Path) -> Result<DeepMap, IoError> {
+    read_deep_map_within(path, DEFAULT_DEEP_BUDGET)
+}
+
+/// As [`read_deep_map`], for maps of at most `most_steps` steps in all and at most as many texels.
+///
+/// # Errors
+/// As [`read_deep_map`].
+pub fn read_deep_map_within(path: &Path, most_steps: u64) -> Result<DeepMap, IoError> {
+    // Without loss a texel takes four bytes at most, and a sample four for each of eight channels; the rest is for more channels of other
+    // makers, header, offset table and what a coder adds.
+    let most_bytes = most_steps.saturating_mul(48).saturating_add(1 << 20);
+    decode_deep_map(&read_bytes(path, most_bytes)?, most_steps).map_err(|fault| fault.in_file(path))
+}
+
+/// As [`read_deep_map_within`], from bytes.
+///
+/// # Errors
+/// A [`Fault`], when the bytes are no deep map of that size.
+pub fn decode_deep_map(bytes: &[u8], most_steps: u64) -> Result<DeepMap, Fault> {
+    read::decode(bytes, most_steps)
+}
+
+/// True when red, green and blue pass alike, bit for bit.
+fn is_grey(map: &DeepMap) -> bool {
+    let texels = TexelRect::of_size(map.view().size()).texels();
+    let grey = |step: &Step| step.passes.to_array().iter().all(|share| share.to_bits() == step.passes.x.to_bits());
+    texels.flat_map(|texel| map.steps(texel)).all(grey)
+}
+
+/// All that a map holds beside its view, for its digest. Numbers of steps are told by their bits.
+fn numbers(map: &DeepMap) -> impl Iterator<Item = f32> {
+    let texels = TexelRect::of_size(map.view().size()).texels();
+    let texels = texels.flat_map(|texel| {
+        let steps = map.steps(texel);
+        let values = steps.iter().flat_map(|step| [step.depth, step.passes.x, step.passes.y, step.passes.z]);
+        std::iter::once(f32::from_bits(steps.len() as u32)).chain(values)
+    });
+    std::iter::once(map.epsilon()).chain(texels)
+}

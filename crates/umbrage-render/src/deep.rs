@@ -1,0 +1,167 @@
+use crate::Soup;
+use crate::pass1::each_fragment;
+use glam::{DVec3, UVec2, Vec3};
+use rayon::prelude::*;
+use umbrage_depth::{DeepMap, MapError, Step, compress};
+use umbrage_plane::{TexelRect, View};
+use umbrage_raster::{Bins, Cull, TILE};
+use umbrage_scene::Scene;
+
+/// How a deep map is made (B06-11, EXT-2, EXT-3).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deep {
+    epsilon: f32,
+    axis: u32,
+}
+
+impl Deep {
+    /// The stored transmittance stands nowhere farther than `epsilon` from the gathered one; 0 keeps all. `axis` × `axis` samples a texel are
+    /// averaged: 1, 2, 4 or 8 along each side, others count as the next lower of these.
+    ///
+    /// # Errors
+    /// For an `epsilon` outside 0..1.
+    pub fn new(epsilon: f32, axis: u32) -> Result<Self, MapError> {
+        let valid = (0.0..1.0).contains(&epsilon);
+        if valid { Ok(Self { epsilon, axis: 1 << axis.clamp(1, 8).ilog2() }) } else { Err(MapError::Epsilon(epsilon)) }
+    }
+
+    /// The same with another bound.
+    pub(crate) fn with_epsilon(self, epsilon: f32) -> Result<Self, MapError> {
+        Self::new(epsilon, self.axis)
+    }
+
+    /// The same with other samples.
+    pub(crate) fn with_axis(self, axis: u32) -> Self {
+        Self { axis: 1 << axis.clamp(1, 8).ilog2(), ..self }
+    }
+}
+
+impl Default for Deep {
+    /// 4 × 4 samples, to 1 %.
+    fn default() -> Self {
+        Self { epsilon: 0.01, axis: 4 }
+    }
+}
+
+/// A surface that a sample meets.
+#[derive(Clone, Copy)]
+struct Fragment {
+    /// Index of the sample in its tile.
+    cell: u16,
+    key: f32,
+    object: u32,
+}
+
+/// Pass 1 of deep maps: a texel's transmittance is the mean over its samples and over the moments of an exposure of what all surfaces
+/// before a depth let through together ([`Object::passes`](umbrage_scene::Object::passes); B06-11, EXT-2, EXT-3).
+///
+/// `moments` are the scene at evenly spread times, one of them for a scene at rest. What is nearer than the near plane stands at it (C-10). The result
+/// does not depend on the number of threads. Maps too large for the samples, which are one grid of at most 32,768 a side, get as many as fit.
+///
+/// # Panics
+/// As [`Soup::casters`].
+pub fn bake_deep(view: &View, moments: &[&Scene], deep: &Deep) -> DeepMap {
+    let fitting = 32_768 / view.size().max_element();
+    let axis = deep.axis.min(1 << fitting.max(1).ilog2());
+    let fine = view.with_size(view.size() * axis).expect("as many samples as fit");
+    let bins: Vec<Bins> = moments
+        .iter()
+        .map(|scene| {
+            let soup = Soup::casters(scene, view);
+            Bins::new(&fine, TexelRect::of_size(fine.size()), Cull::None, soup.triangles())
+        })
+        .collect();
+    let size = fine.size();
+    let grid = size.map(|side| side.div_ceil(TILE));
+    let gather = Gather { fine: &fine, moments, bins: &bins, axis, epsilon: deep.epsilon };
+    let tiles: Vec<Vec<Vec<Step>>> = (0..grid.x * grid.y)
+        .into_par_iter()
+        .map(|index| gather.tile(UVec2::new(index % grid.x, index / grid.x)))
+        .collect();
+    let side = TILE / axis;
+    let steps = TexelRect::of_size(view.size()).texels().map(|texel| {
+        let (tile, at) = (texel.as_uvec2() / side, texel.as_uvec2() % side);
+        let tile = &tiles[(tile.y * grid.x + tile.x) as usize];
+        tile.get((at.y * side + at.x) as usize).cloned().unwrap_or_default()
+    });
+    DeepMap::new(*view, deep.epsilon, steps).expect("steps were made in order")
+}
+
+struct Gather<'a> {
+    fine: &'a View,
+    moments: &'a [&'a Scene],
+    bins: &'a [Bins],
+    axis: u32,
+    epsilon: f32,
+}
+
+impl Gather<'_> {
+    /// The compressed steps of the texels of one tile of samples, row by row; none at all where nothing is seen.
+    fn tile(&self, tile: UVec2) -> Vec<Vec<Step>> {
+        let side = TILE / self.axis;
+        let origin = (tile * TILE).as_ivec2();
+        let mut falls: Vec<Vec<(f32, DVec3)>> = Vec::new();
+        for (scene, bins) in self.moments.iter().zip(self.bins) {
+            let mut met: Vec<Fragment> = Vec::new();
+            bins.tile(tile, |facet, coverage| {
+                each_fragment(self.fine, origin, facet, coverage, |cell, _, key| {
+                    if !key.is_nan() {
+                        met.push(Fragment { cell: cell as u16, key, object: facet.object });
+                    }
+                });
+            });
+            if met.is_empty() {
+                continue;
+            }
+            // By sample, from the light outward; ids make one order of equal keys.
+            met.sort_unstable_by(|a, b| {
+                a.cell.cmp(&b.cell).then(a.key.total_cmp(&b.key)).then(a.object.cmp(&b.object))
+            });
+            falls.resize((side * side) as usize, Vec::new());
+            for sample in met.chunk_by(|a, b| a.cell == b.cell) {
+                let cell = UVec2::new(u32::from(sample[0].cell) % TILE, u32::from(sample[0].cell) / TILE);
+                let texel = cell / self.axis;
+                let at = self.fine.sampling().position(origin + cell.as_ivec2());
+                self.add(scene, sample, at, &mut falls[(texel.y * side + texel.x) as usize]);
+            }
+        }
+        let samples = f64::from(self.axis * self.axis) * self.moments.len() as f64;
+        falls.into_iter().map(|falls| compress(&steps(falls, samples), self.epsilon)).collect()
+    }
+
+    /// What the light loses at each surface of one sample.
+    fn add(&self, scene: &Scene, sample: &[Fragment], at: glam::DVec2, falls: &mut Vec<(f32, DVec3)>) {
+        let decode = self.fine.decode();
+        let nearest = decode.depth(self.fine.key(self.fine.near()) as f32, at);
+        let mut light = DVec3::ONE;
+        for fragment in sample {
+            let passes = scene.objects[fragment.object as usize].passes.clamp(Vec3::ZERO, Vec3::ONE).as_dvec3();
+            let depth = decode.depth(fragment.key, at).max(nearest);
+            if light == DVec3::ZERO || depth == f32::INFINITY {
+                break;
+            }
+            falls.push((depth, light - light * passes));
+            light *= passes;
+        }
+    }
+}
+
+/// The steps of a texel from what each of its samples loses at which depth.
+fn steps(mut falls: Vec<(f32, DVec3)>, samples: f64) -> Vec<Step> {
+    // One order whatever the samples came in, so that sums round alike.
+    falls.sort_unstable_by(|a, b| {
+        let channel = |i: usize| a.1[i].total_cmp(&b.1[i]);
+        a.0.total_cmp(&b.0).then(channel(0)).then(channel(1)).then(channel(2))
+    });
+    let (mut lost, mut before) = (DVec3::ZERO, Vec3::ONE);
+    let mut steps = Vec::new();
+    for level in falls.chunk_by(|a, b| a.0 == b.0) {
+        lost += level.iter().map(|fall| fall.1).sum::<DVec3>();
+        let left = DVec3::ONE - lost / samples;
+        // What is left of rounding is no light.
+        let passes = left.map(|light| if light < 1e-9 { 0.0 } else { light }).as_vec3().min(before);
+        steps.push(Step { depth: level[0].0, passes });
+        before = passes;
+    }
+    steps
+}

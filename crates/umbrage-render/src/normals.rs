@@ -1,0 +1,45 @@
+use crate::pass1::Pass;
+use crate::{Baked, Soup};
+use glam::{DMat3, DVec2, DVec3, Vec3};
+use umbrage_depth::DepthRule;
+use umbrage_plane::{Facet, Facing, Projection, View};
+use umbrage_raster::Cull;
+
+/// [`bake`](crate::bake) for curved surfaces: which side of a surface is seen is asked of its *interpolated* normals at each sample, the test of
+/// N·L < 0 (Wang & Molnar 1994; WM94-1 iii). With [`BackFace`](umbrage_depth::BackFace) only what faces away by that test is stored.
+///
+/// N·L is interpolated as a camera would, in proportion over the triangle, not over the map. Where a triangle is edge-on to the light its own
+/// facing decides.
+pub fn bake_by_normals<R: DepthRule>(view: &View, soup: &Soup, rule: &R) -> Baked {
+    let sides: Vec<Option<DVec3>> = (0..soup.len() as u32).map(|triangle| side(view, soup.corners(triangle))).collect();
+    let front = |facet: &Facet, at: DVec2| match sides.get(facet.triangle as usize) {
+        Some(Some(side)) => side.dot(ray(view, at)) > 0.0,
+        _ => facet.facing == Facing::Front,
+    };
+    Pass { view, fine: view, rule, front }.run(soup.triangles(), Cull::None)
+}
+
+/// A vector whose product with [`ray`] has the sign of N·L at each place of a triangle; `None` for one that is edge-on.
+///
+/// N·L times the distance is linear over the triangle. In perspective a linear function of eye space divided by ζ is one of the ray; in an
+/// orthographic view it is one of the place itself.
+fn side(view: &View, (corners, normals): ([Vec3; 3], [Vec3; 3])) -> Option<DVec3> {
+    let to_eye = view.world_to_eye();
+    let eye = corners.map(|corner| to_eye.transform_point3(corner.as_dvec3()));
+    let toward = |at: DVec3| if view.is_perspective() { -at } else { DVec3::Z };
+    let normals = normals.map(|normal| to_eye.transform_vector3(normal.as_dvec3()));
+    let facing = DVec3::from_array(std::array::from_fn(|i| normals[i].dot(toward(eye[i]))));
+    let places = eye.map(|at| if view.is_perspective() { at } else { DVec3::new(at.x, at.y, 1.0) });
+    let rows = DMat3::from_cols(places[0], places[1], places[2]).transpose();
+    let scale = places.map(|place| place.length()).iter().product::<f64>();
+    (rows.determinant().abs() > 1e-12 * scale).then(|| rows.inverse() * facing)
+}
+
+/// Where a place of the map looks in eye space: (x/ζ, y/ζ, −1), or (x, y, 1) in an orthographic view.
+fn ray(view: &View, texel: DVec2) -> DVec3 {
+    let screen = DVec2::new(2.0, -2.0) * texel / view.size().as_dvec2() + DVec2::new(-1.0, 1.0);
+    match view.projection() {
+        Projection::Perspective { k } => (screen / k).extend(-1.0),
+        Projection::Orthographic { half } => (screen * half).extend(1.0),
+    }
+}

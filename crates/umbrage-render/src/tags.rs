@@ -1,0 +1,41 @@
+use crate::pass1::Pass;
+use glam::{DVec2, UVec2};
+use rayon::prelude::*;
+use umbrage_depth::{DepthRule, TagMap};
+use umbrage_plane::{Decode, Facet, TexelRect, View};
+use umbrage_raster::{Bins, Cull, TILE, Triangle};
+
+/// The nearest key and its object; of several objects at one key the smallest id, so that no order shows (V54).
+struct Nearest;
+
+impl DepthRule for Nearest {
+    type Cell = (f32, u32);
+    const EMPTY: (f32, u32) = (f32::INFINITY, u32::MAX);
+
+    fn add(&self, _pass: u32, cell: &mut (f32, u32), key: f32, _front: bool, facet: &Facet) {
+        if key < cell.0 || (key == cell.0 && facet.object < cell.1) {
+            *cell = (key, facet.object);
+        }
+    }
+
+    fn resolve(&self, cell: (f32, u32), decode: &Decode, at: DVec2) -> f32 {
+        decode.depth(cell.0, at)
+    }
+}
+
+/// Pass 1 of the baseline by object tags: the id of the nearest object a texel (Wang & Molnar 1994; WM94-16).
+pub fn bake_tags(view: &View, triangles: impl IntoIterator<Item = Triangle>) -> TagMap {
+    let bins = Bins::new(view, TexelRect::of_size(view.size()), Cull::None, triangles);
+    let grid = bins.tiles();
+    let pass = Pass { view, fine: view, rule: &Nearest, front: |_: &Facet, _| true };
+    let tiles: Vec<_> = (0..grid.x * grid.y)
+        .into_par_iter()
+        .map(|index| pass.cells(&bins, UVec2::new(index % grid.x, index / grid.x)).0)
+        .collect();
+    let id = |texel: glam::IVec2| {
+        let (tile, at) = (texel.as_uvec2() / TILE, texel.as_uvec2() % TILE);
+        let (key, object) = tiles[(tile.y * grid.x + tile.x) as usize].as_ref()?[(at.y * TILE + at.x) as usize];
+        (key < f32::INFINITY).then_some(object)
+    };
+    TagMap::new(*view, TexelRect::of_size(view.size()).texels().map(id))
+}
