@@ -15,6 +15,9 @@ mod sphere_plane;
 mod spheres;
 mod studio;
 mod wang_molnar_ideas;
+mod wang_molnar_listing;
+mod wang_molnar_others;
+mod wang_molnar_planes;
 mod wang_molnar_second;
 mod williams_scenes;
 mod williams_shadow;
@@ -66,6 +69,11 @@ pub const FIGURES: &[&Figure] = &[
     &wang_molnar_ideas::F3,
     &wang_molnar_second::F5,
     &wang_molnar_second::F6,
+    &wang_molnar_planes::F8,
+    &wang_molnar_listing::F10,
+    &wang_molnar_planes::F11,
+    &wang_molnar_others::TAGS,
+    &wang_molnar_others::PCF_BIAS,
     &curves::ACNE,
     &curves::NOISE,
     &faults::FAULTS,

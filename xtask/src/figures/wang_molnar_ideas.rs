@@ -11,7 +11,7 @@ use umbrage_oracle::{Geometry, RayCast};
 use umbrage_plane::{Bias, SurfacePoint};
 use umbrage_render::{NOTHING, Picture, bind};
 use umbrage_sample::Key;
-use umbrage_shadow::{Shadow, presets};
+use umbrage_shadow::presets;
 
 const LIT: Ink = Ink::Series(1);
 const DARK: Ink = Ink::Series(0);

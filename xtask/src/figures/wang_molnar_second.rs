@@ -7,12 +7,12 @@ use crate::figure::{Context, Figure, Made, Measure, Panel, Paper, Role, Table};
 use crate::plot::{Axis, Plot, Series};
 use glam::{DVec2, DVec3, UVec2, Vec3};
 use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Raw, Second, Tiled};
-use umbrage_oracle::{Geometry, RayCast, metrics};
+use umbrage_oracle::metrics;
 use umbrage_plane::{Decode, Facet, SurfacePoint};
 use umbrage_raster::Cull;
 use umbrage_render::{Frame, NOTHING, Picture, Soup, bake, bind};
 use umbrage_scene::{Light, Material, Mesh, Object, Scene, gallery};
-use umbrage_shadow::{Shadow, presets};
+use umbrage_shadow::presets;
 
 pub const F5: Figure = Figure {
     id: "WM94-F5",
