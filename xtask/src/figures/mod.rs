@@ -16,9 +16,15 @@ mod reeves_parameters;
 mod reeves_scenes;
 mod reeves_tables;
 mod softness;
+mod slice;
 mod sphere_plane;
 mod spheres;
 mod studio;
+mod wang_molnar_ideas;
+mod wang_molnar_listing;
+mod wang_molnar_others;
+mod wang_molnar_planes;
+mod wang_molnar_second;
 mod williams_scenes;
 mod williams_shadow;
 mod williams_views;
@@ -65,6 +71,16 @@ pub const FIGURES: &[&Figure] = &[
     &woo::F3,
     &woo::RIM,
     &woo::COST,
+    &wang_molnar_ideas::F1,
+    &wang_molnar_ideas::F2,
+    &wang_molnar_ideas::F3,
+    &wang_molnar_second::F5,
+    &wang_molnar_second::F6,
+    &wang_molnar_planes::F8,
+    &wang_molnar_listing::F10,
+    &wang_molnar_planes::F11,
+    &wang_molnar_others::TAGS,
+    &wang_molnar_others::PCF_BIAS,
     &burley_bias::I75,
     &burley::I76,
     &burley::I77,

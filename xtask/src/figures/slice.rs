@@ -128,11 +128,7 @@ pub fn stored(map: &Tiled) -> Vec<DVec2> {
     let at = |x: i32| {
         let texel = IVec2::new(x, row);
         let depth = f64::from(map.depth(texel));
-        if depth.is_finite() {
-            view.world_at(texel.as_dvec2() + 0.5, view.key(depth)).truncate()
-        } else {
-            DVec2::NAN
-        }
+        if depth.is_finite() { view.world_at(texel.as_dvec2() + 0.5, view.key(depth)).truncate() } else { DVec2::NAN }
     };
     (0..view.size().x as i32).map(at).collect()
 }
@@ -154,8 +150,11 @@ pub fn cut(points: &[DVec2], reach: f64) -> Vec<DVec2> {
 pub fn tilted(normal: DVec3) -> anyhow::Result<(View, Tiled)> {
     let view = View::orthographic(DVec3::Z * 200.0, DVec3::ZERO, DVec3::Y, 8.0, 1.0, 400.0, UVec2::splat(256))?;
     let corners = [[-20.0, -20.0], [20.0, -20.0], [20.0, 20.0], [-20.0, 20.0]].map(|[x, y]| on_plane(normal, x, y));
-    let sheet =
-        |a: usize, b: usize, c: usize| Triangle { corners: [corners[a], corners[b], corners[c]], object: 0, sheet: true };
+    let sheet = |a: usize, b: usize, c: usize| Triangle {
+        corners: [corners[a], corners[b], corners[c]],
+        object: 0,
+        sheet: true,
+    };
     Ok((view, bake(&view, [sheet(0, 1, 2), sheet(0, 2, 3)], &First, Cull::None).map))
 }
 

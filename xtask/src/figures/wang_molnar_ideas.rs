@@ -11,7 +11,7 @@ use umbrage_oracle::{Geometry, RayCast};
 use umbrage_plane::{Bias, SurfacePoint};
 use umbrage_render::{NOTHING, Picture, bind};
 use umbrage_sample::Key;
-use umbrage_shadow::{Shadow, presets};
+use umbrage_shadow::presets;
 
 const LIT: Ink = Ink::Series(1);
 const DARK: Ink = Ink::Series(0);
@@ -40,11 +40,7 @@ fn passes(cx: &Context) -> anyhow::Result<Made> {
     let (light, eye) = (DVec2::new(-34.0, 58.0), DVec2::new(58.0, 44.0));
     let slice = Slice::new(
         "two-passes",
-        vec![
-            rectangle([-56.0, -6.0], [60.0, 0.0]),
-            rectangle([-16.0, 0.0], [-6.0, 17.0]),
-            disc([17.0, 11.0], 9.0),
-        ],
+        vec![rectangle([-56.0, -6.0], [60.0, 0.0]), rectangle([-16.0, 0.0], [-6.0, 17.0]), disc([17.0, 11.0], 9.0)],
         slice::lamp(light.into(), [2.0, 4.0], 62.0, 40)?,
         slice::eye(eye.into(), [0.0, 2.0], 50.0, 46)?,
     )?;
@@ -149,7 +145,8 @@ fn mismatch(cx: &Context) -> anyhow::Result<Made> {
     let normal = DVec3::new(-tan, 0.0, 1.0).normalize();
     let (view, map) = tilted(normal)?;
     let step = view.texel_world(200.0).x * tan;
-    let mut measures = vec![Measure::at_least("camera's samples in false shadow, as drawn", dark as f64, "samples", 1.0)];
+    let mut measures =
+        vec![Measure::at_least("camera's samples in false shadow, as drawn", dark as f64, "samples", 1.0)];
     let (mut measured, mut predicted) = (Vec::new(), Vec::new());
     for index in 0..=12 {
         let steps = f64::from(index) * 0.05;
