@@ -1,8 +1,8 @@
 //! Burley 2006, Images 76 and 77: soft shadows from one map, and their density by distance.
 
 use super::penumbra::{DISC_10_90, Edge, axial, burley_max, depth_step, disc_light, mean_shadow};
-use super::studio::{Set, acne, error_panel, shadow_panel, truth_panel, value};
-use crate::figure::{Context, Figure, Made, Measure, Paper, Table};
+use super::studio::{Set, acne, colour_panel, error_panel, of, shadow_panel, truth_panel, value};
+use crate::figure::{Context, Figure, Made, Measure, Paper, Role, Table};
 use crate::plot::{Axis, Plot, Series};
 use crate::text::short;
 use glam::{DVec3, Vec3};
@@ -94,7 +94,7 @@ fn strip() -> Vec<SurfacePoint> {
 }
 
 fn soft(cx: &Context) -> anyhow::Result<Made> {
-    let set = Set::new(gallery::contact_box(), cx.pick(400, 128), 1024);
+    let set = Set::new(gallery::contact_box(), cx.pick(320, 128), 1024);
     let recipes = recipes(&set);
     let mut made = Made::default();
     let truth = set.truth_disc(cx, &Frame::CENTRES, LIGHT);
@@ -113,7 +113,13 @@ fn soft(cx: &Context) -> anyhow::Result<Made> {
         let picture = set.draw(cx, &*shadow, &Frame::CENTRES);
         false_shadow.push(acne(&picture, &truth, 6, |_| true));
         panels(&mut made, name, caption, recipe, &picture, &truth);
+        if *name == "burley" {
+            let panel = colour_panel("burley-colour", "Burley, shaded", picture.size, &picture.colour);
+            made.panels.insert(0, panel.against("truth-colour"));
+        }
     }
+    let panel = colour_panel("truth-colour", "Ray-traced truth, shaded", truth.size, &truth.colour);
+    made.panels.insert(1, panel.role(Role::Truth));
     made.panels.push(truth_panel(&truth).with("light's radius", LIGHT).with("samples", cx.pick(256, 64)));
     let expected: Vec<(f64, f64)> = PLACES.iter().map(|&x| (x, predicted(&set, x))).collect();
     judge(cx, &mut made, (&widths, &exact, &expected), &contact, &false_shadow);
@@ -124,9 +130,10 @@ fn soft(cx: &Context) -> anyhow::Result<Made> {
     ));
     overlapping(cx, &mut made)?;
     made.note = format!(
-        "The light is a disc of radius {LIGHT}; its penumbra is 10–90 % wide as {DISC_10_90:.3} of the whole. Burley's largest radius is that of \
-        D-16 for occluders half-way up the box. Fernando's search of the same radius needs a bias so large for this floor that the box's own shadow goes \
-        missing near its foot."
+        "The light is a disc of radius {LIGHT}; {DISC_10_90:.3} of its penumbra lies between 10 and 90 %. Burley's largest radius is \
+        that of D-16 for occluders half-way up the box, and the constant biases are those of D-9 for the floor half-way along the shadow. \
+        Fernando's search of the same radius needs so large a bias that the box's shadow goes missing near its foot. Faces turned away \
+        from the light show what the map says of them; shading never asks."
     );
     Ok(made)
 }
@@ -218,7 +225,7 @@ fn judge(
 
 /// A board high above: one search meets occluders at two depths.
 fn overlapping(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
-    let set = Set::new(gallery::overlapping_boxes(), cx.pick(320, 128), 1024);
+    let set = Set::new(gallery::overlapping_boxes(), cx.pick(256, 128), 1024);
     let truth = set.truth_disc(cx, &Frame::CENTRES, LIGHT);
     let geometry = Geometry::new(&set.scene, &set.scene.camera);
     let light = disc_light(cx, &set, &geometry, LIGHT);
@@ -231,8 +238,7 @@ fn overlapping(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
         let off = edges.iter().zip(&exact).map(|(edge, exact)| (edge.width(cx, &*shadow) / exact - 1.0).abs());
         errors.push(off.sum::<f64>() / exact.len() as f64);
         let picture = set.draw(cx, &*shadow, &Frame::CENTRES);
-        let mask =
-            metrics::both(&metrics::penumbra_mask(&truth.shadow[0]), &super::studio::of(&truth, |id| id == FLOOR));
+        let mask = metrics::both(&metrics::penumbra_mask(&truth.shadow[0]), &of(&truth, |id| id == FLOOR));
         let rms = value(metrics::rms(&picture.shadow[0], &truth.shadow[0], &mask));
         made.measures.push(Measure::info(&format!("overlapping, {caption}: rms error in the penumbra"), rms, "share"));
         made.panels.push(error_panel(
@@ -250,7 +256,7 @@ fn overlapping(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
         }
     }
     let mut panel = shadow_panel("overlapping-truth", "Overlapping occluders, ray-traced area light", &truth);
-    panel.role = crate::figure::Role::Truth;
+    panel.role = Role::Truth;
     made.panels.push(panel);
     made.measures.push(Measure::info(
         "overlapping, Burley: mean width error beside the board's shadow",
@@ -284,7 +290,7 @@ fn density(delta: f64) -> f64 {
 }
 
 fn opacity(cx: &Context) -> anyhow::Result<Made> {
-    let set = Set::new(gallery::contact_box(), cx.pick(400, 128), 1024);
+    let set = Set::new(gallery::contact_box(), cx.pick(320, 128), 1024);
     let view = set.scene.lights[0].view;
     let max = burley_max(&view, LIGHT, axial(&view, DVec3::new(CORNER.x, 60.0, CORNER.z)));
     let plain = format!("burley,max={max:.3}t,{TAPS}");
@@ -320,7 +326,7 @@ fn opacity(cx: &Context) -> anyhow::Result<Made> {
     panels(&mut made, "off", "Opacity off, as by default", &plain, &off, &truth);
     panels(&mut made, "on", &format!("Opacity 1 to {FAR} over {FADE} world units"), &faded, &on, &truth);
     made.panels.push(truth_panel(&truth));
-    made.panels.push(super::studio::colour_panel("colour", "The same as a picture", on.size, &on.colour));
+    made.panels.push(colour_panel("colour", "The same as a picture", on.size, &on.colour));
     made.measures = vec![
         Measure::at_most("umbra's density: largest difference from o(δ)", worst, "share", 0.02),
         Measure::exactly("pixels that an opacity of 1 everywhere changes", same(&off, &neutral), "pixels", 0.0),

@@ -7,6 +7,7 @@ use crate::diagram::{Diagram, Ink, Mark};
 use crate::figure::{Context, Figure, Made, Measure, Paper};
 use crate::plot::{Axis, Plot, Series};
 use glam::{DVec2, DVec3, IVec2, Vec3};
+use std::f64::consts::PI;
 use umbrage_depth::{DepthMap, Raw, Tiled};
 use umbrage_oracle::predict;
 use umbrage_plane::{SurfacePoint, View};
@@ -77,11 +78,11 @@ fn shaded(cx: &Context, map: &Tiled, points: &[SurfacePoint], depth: &str) -> an
 
 /// Names of the cones and constant biases in the sweep, and their recipes at a slope.
 const SWEPT: [&str; 5] = [
-    "disc, bias of one texel",
-    "cone of slope 1, texel centre",
-    "cone of slope 2, texel centre",
-    "cone of slope 2, nominal radius",
-    "the same with a base of a diagonal's half step",
+    "disc with a bias of one texel",
+    "cone of slope 1 to texel centres",
+    "cone of slope 2 to texel centres",
+    "cone of slope 2 to the taps themselves",
+    "the same with a base of τ·tanθ/√2",
 ];
 
 fn recipes(slope: &Slope) -> [String; 5] {
@@ -115,6 +116,9 @@ fn cone(cx: &Context) -> anyhow::Result<Made> {
     let floor = Slope::new(cx, 50.0)?;
     let [one_texel, slope_1, ..] = recipes(&floor);
     let limit = Slope::new(cx, 63.4)?;
+    // The segment of a disc beyond the line at which the floor is a texel higher than the receiver.
+    let line = floor.texel / (floor.step / floor.texel) / (RADIUS * floor.texel);
+    let pierced = (line.acos() - line * (1.0 - line * line).sqrt()) / PI;
     made.measures = vec![
         Measure::exactly(
             "cone of slope 2, texel centre: largest false shadow up to 63.4°",
@@ -135,12 +139,13 @@ fn cone(cx: &Context) -> anyhow::Result<Made> {
             0.05,
         ),
         Measure::within(
-            "disc with a bias of one texel on that floor: false shadow",
-            floor.dark(cx, &one_texel)?,
-            "share",
-            0.25,
-            0.45,
+            "disc with a bias of one texel on that floor: false shadow over the share of the disc that pierces it",
+            floor.dark(cx, &one_texel)? / pierced,
+            "ratio",
+            0.95,
+            1.05,
         ),
+        Measure::info("share of that disc that pierces the floor", pierced, "share"),
         Measure::info("cone of slope 2, nominal radius: largest false shadow up to 63.4°", largest(3, 63.4), "share"),
         Measure::exactly("the same with a base of τ·tanθ/√2", largest(4, 63.4), "share", 0.0),
         Measure::at_least(
@@ -172,10 +177,11 @@ fn cone(cx: &Context) -> anyhow::Result<Made> {
     ];
     contacts(cx, &mut made)?;
     pictures(cx, &mut made)?;
-    made.note = "The cone's price: an occluder counts only where it is nearer to the light than slope times the tap's distance from the \
-        receiver. At large radii the cone's outer taps therefore miss what stands close to the receiver: of a surface that covers the whole \
-        disc at height h only the share (h / (slope · radius))² is seen, where the two plots of contacts begin. Two passes with a small \
-        radius near contacts (Image 76) avoid it.".into();
+    made.note = "The cone's price: an occluder counts only where it is nearer to the light than slope times the tap's distance \
+        from the receiver. Of a surface that covers the whole disc at height h above the receiver only the share (h / (slope · radius))² \
+        is seen: at large radii the outer taps miss what stands close, and contacts would fade. A radius that shrinks toward contacts \
+        (Image 76) avoids it. A constant bias as safe sees nothing at all below it."
+        .into();
     Ok(made)
 }
 

@@ -35,7 +35,7 @@ fn edge(height: f64, z: f32) -> Edge {
 }
 
 fn widths(cx: &Context) -> anyhow::Result<Made> {
-    let set = Set::new(gallery::two_heights(), cx.pick(400, 128), 1024);
+    let set = Set::new(gallery::two_heights(), cx.pick(320, 128), 1024);
     let view = set.scene.lights[0].view;
     let floor = axial(&view, DVec3::ZERO);
     let texel = view.texel_world(floor).x;

@@ -33,7 +33,7 @@ fn edge(width: f64) -> Edge {
     Edge { middle: Vec3::ZERO, normal: Vec3::Y, into_shadow: Vec3::NEG_X, half_width, half_length: 12.0 }
 }
 
-/// Largest distance between two profiles of one edge.
+/// Root mean square distance between two profiles of one edge.
 fn rms(a: &Profile, b: &Profile) -> f64 {
     let squares: f64 = a.points.iter().zip(&b.points).map(|(a, b)| (a.1 - b.1).powi(2)).sum();
     (squares / a.points.len().max(1) as f64).sqrt()
@@ -51,17 +51,20 @@ struct Found {
     error: f64,
 }
 
-fn measure(cx: &Context, set: &Set, recipe: &str, light: f64, whole: f64) -> anyhow::Result<Found> {
-    let geometry = Geometry::new(&set.scene, &set.scene.camera);
-    let edge = edge(whole);
-    let exact = edge.profile(cx, &disc_light(cx, set, &geometry, light));
+fn measure(cx: &Context, set: &Set, recipe: &str, edge: &Edge, exact: &Profile) -> anyhow::Result<Found> {
     let found = edge.profile(cx, &*bound(cx, set, recipe)?);
     let width = |profile: &Profile| profile.width().unwrap_or(f64::NAN);
-    Ok(Found { width: width(&found), exact: width(&exact), error: rms(&found, &exact) })
+    Ok(Found { width: width(&found), exact: width(exact), error: rms(&found, exact) })
+}
+
+/// What rays to the whole light say of an edge.
+fn by_rays(cx: &Context, set: &Set, edge: &Edge, light: f64) -> Profile {
+    let geometry = Geometry::new(&set.scene, &set.scene.camera);
+    edge.profile(cx, &disc_light(cx, set, &geometry, light))
 }
 
 fn softness(cx: &Context) -> anyhow::Result<Made> {
-    let set = Set::new(gallery::single_occluder(), cx.pick(400, 128), 1024);
+    let set = Set::new(gallery::single_occluder(), cx.pick(320, 128), 1024);
     let view = set.scene.lights[0].view;
     let (floor, occluder) = (axial(&view, DVec3::ZERO), axial(&view, DVec3::Y * HEIGHT));
     let whole = |radius: f64| predict::penumbra_width(2.0 * radius, occluder, floor);
@@ -86,10 +89,17 @@ fn softness(cx: &Context) -> anyhow::Result<Made> {
         Axis::linear("radius of the light, world units"),
         Axis::linear("rms error, share"),
     );
+    // Wide enough for the filters that are set for one size, too.
+    let lamps = RADII.map(|radius| {
+        let edge = edge(whole(radius.max(SET)));
+        let exact = by_rays(cx, &set, &edge, radius);
+        (edge, exact)
+    });
     let mut made = Made::default();
     for (index, (name, recipe)) in recipes.iter().enumerate() {
-        let found = RADII.map(|radius| measure(cx, &set, &recipe(radius), radius, whole(radius)));
-        let found = found.into_iter().collect::<anyhow::Result<Vec<Found>>>()?;
+        let found =
+            RADII.iter().zip(&lamps).map(|(&radius, (edge, exact))| measure(cx, &set, &recipe(radius), edge, exact));
+        let found = found.collect::<anyhow::Result<Vec<Found>>>()?;
         let line = |value: &dyn Fn(&Found) -> f64| {
             RADII.iter().zip(&found).map(|(&radius, found)| (radius, value(found))).collect::<Vec<_>>()
         };
@@ -137,11 +147,12 @@ fn sky(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
     let mut scene = gallery::single_occluder();
     scene.name = "single-occluder under the sky".into();
     scene.lights = vec![Light::directional("sun", DVec3::Y, DVec3::ZERO, 72.0, 50.0, 250.0, UVec2::splat(1024))?];
-    let set = Set::new(scene, cx.pick(400, 128), 1024);
+    let set = Set::new(scene, cx.pick(320, 128), 1024);
     for tangent in TANGENTS {
         let whole = 2.0 * predict::sky_penumbra_half_width(tangent.atan(), HEIGHT);
         let recipe = format!("burley,light={tangent},nearest=90,search=64,blur=64");
-        let found = measure(cx, &set, &recipe, tangent, whole)?;
+        let edge = edge(whole);
+        let found = measure(cx, &set, &recipe, &edge, &by_rays(cx, &set, &edge, tangent))?;
         made.measures.push(near(&format!("sky of tangent {tangent}: width over the area light's"), &found));
     }
     Ok(())
