@@ -1,4 +1,4 @@
-//! Burley 2006, Images 76 and 77: soft shadows from one map, and their density by distance.
+//! Burley 2006, Image 76: soft shadows from one map.
 
 use super::penumbra::{DISC_10_90, Edge, axial, burley_max, depth_step, disc_light, mean_shadow};
 use super::studio::{Set, acne, colour_panel, error_panel, of, shadow_panel, truth_panel, value};
@@ -13,14 +13,15 @@ use umbrage_scene::gallery;
 use umbrage_shadow::Shadow;
 
 /// Radius of the disc that the light is, world units.
-const LIGHT: f64 = 25.0;
-/// Ids in the gallery's contact-box.
-const FLOOR: u32 = 1;
+pub const LIGHT: f64 = 25.0;
+/// Id of the floor in the gallery's contact-box.
+pub const FLOOR: u32 = 1;
 /// The silhouette of the box, seen from its light, is its upright corner here and at −z.
-const CORNER: DVec3 = DVec3::new(-10.0, 0.0, 40.0);
+pub const CORNER: DVec3 = DVec3::new(-10.0, 0.0, 40.0);
 /// Where widths are taken: x on the floor; the box ends at 10, the light passes over its top beyond 163.
 const PLACES: [f64; 8] = [20.0, 35.0, 50.0, 70.0, 90.0, 110.0, 130.0, 150.0];
-const TAPS: &str = "search=64,blur=64";
+/// Taps of every soft recipe here.
+pub const TAPS: &str = "search=64,blur=64";
 
 pub const I76: Figure = Figure {
     id: "B06-I76",
@@ -79,7 +80,8 @@ fn recipes(set: &Set) -> [(&'static str, &'static str, String); 4] {
     ]
 }
 
-fn bound(cx: &Context, set: &Set, recipe: &str) -> anyhow::Result<Box<dyn Shadow>> {
+/// A recipe over its own map of light 0.
+pub fn bound(cx: &Context, set: &Set, recipe: &str) -> anyhow::Result<Box<dyn Shadow>> {
     let recipe: Recipe = recipe.parse()?;
     Ok(recipe.bind(recipe.bake(&set.scene, &set.scene.lights[0].view), cx.storage))
 }
@@ -138,7 +140,8 @@ fn soft(cx: &Context) -> anyhow::Result<Made> {
     Ok(made)
 }
 
-fn panels(made: &mut Made, name: &str, caption: &str, recipe: &str, picture: &Picture, truth: &Picture) {
+/// A picture's panel and its error's.
+pub fn panels(made: &mut Made, name: &str, caption: &str, recipe: &str, picture: &Picture, truth: &Picture) {
     made.panels.push(shadow_panel(name, caption, picture).with("recipe", recipe).against("truth"));
     let caption = format!("{caption}: less truth");
     made.panels.push(error_panel(
@@ -270,78 +273,4 @@ fn overlapping(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
         1.0,
     ));
     Ok(())
-}
-
-pub const I77: Figure = Figure {
-    id: "B06-I77",
-    paper: Paper::Burley06,
-    title: "Opacity by the occluder's distance",
-    claim: "A shadow fades with the way from its occluder; off by default.",
-    make: opacity,
-};
-
-const FADE: f64 = 180.0;
-const FAR: f64 = 0.25;
-
-/// Density for a gap of `delta` world units (B06-10).
-fn density(delta: f64) -> f64 {
-    let share = (delta / FADE).clamp(0.0, 1.0);
-    1.0 + (FAR - 1.0) * share * share * (3.0 - 2.0 * share)
-}
-
-fn opacity(cx: &Context) -> anyhow::Result<Made> {
-    let set = Set::new(gallery::contact_box(), cx.pick(320, 128), 1024);
-    let view = set.scene.lights[0].view;
-    let max = burley_max(&view, LIGHT, axial(&view, DVec3::new(CORNER.x, 60.0, CORNER.z)));
-    let plain = format!("burley,max={max:.3}t,{TAPS}");
-    let faded = format!("{plain},opacity=1..{FAR},fade={FADE}");
-    let truth = set.truth_disc(cx, &Frame::CENTRES, LIGHT);
-    let (off, on) = (set.by(cx, &plain, &Frame::CENTRES)?, set.by(cx, &faded, &Frame::CENTRES)?);
-    let neutral = set.by(cx, &format!("{plain},opacity=1..1,fade={FADE}"), &Frame::CENTRES)?;
-    let same = |a: &Picture, b: &Picture| {
-        a.shadow[0].iter().zip(&b.shadow[0]).filter(|(a, b)| a.to_bits() != b.to_bits()).count() as f64
-    };
-    let shadow = bound(cx, &set, &faded)?;
-    let light = view.light().truncate();
-    let (mut measured, mut predicted, mut worst) = (Vec::new(), Vec::new(), 0.0f64);
-    for step in 0..=24 {
-        // Floor on the shadow's axis; the box's front is what the light meets first.
-        let x = 14.0 + 5.0 * f64::from(step);
-        let hit = light.lerp(DVec3::new(x, 0.0, 0.0), (CORNER.x - light.x) / (x - light.x));
-        let delta = axial(&view, DVec3::new(x, 0.0, 0.0)) - axial(&view, hit);
-        let place = |i: u32| {
-            let z = 0.4 * (i as f32 - 15.5);
-            SurfacePoint {
-                region: step * 32 + i,
-                object: FLOOR,
-                ..SurfacePoint::at(Vec3::new(x as f32, 0.0, z), Vec3::Y)
-            }
-        };
-        let found = mean_shadow(cx, &*shadow, &(0..32).map(place).collect::<Vec<_>>());
-        worst = worst.max((found - density(delta)).abs());
-        measured.push((delta, found));
-        predicted.push((delta, density(delta)));
-    }
-    let mut made = Made::default();
-    panels(&mut made, "off", "Opacity off, as by default", &plain, &off, &truth);
-    panels(&mut made, "on", &format!("Opacity 1 to {FAR} over {FADE} world units"), &faded, &on, &truth);
-    made.panels.push(truth_panel(&truth));
-    made.panels.push(colour_panel("colour", "The same as a picture", on.size, &on.colour));
-    made.measures = vec![
-        Measure::at_most("umbra's density: largest difference from o(δ)", worst, "share", 0.02),
-        Measure::exactly("pixels that an opacity of 1 everywhere changes", same(&off, &neutral), "pixels", 0.0),
-        Measure::at_least("pixels that the fading changes", same(&off, &on), "pixels", 1.0),
-    ];
-    let plot = Plot::new(
-        "Density in the middle of the shadow",
-        Axis::linear("δ, way from occluder to receiver, world units"),
-        Axis::linear("shadow"),
-    )
-    .add(Series::line("o(δ), as asked for", predicted))
-    .add(Series::dots("o(δ), measured", measured));
-    made.plots.push(("density".into(), plot.svg()));
-    made.note =
-        "A control for the eye: with it on, the shadow is not that of any light; the truth beside it is the light's."
-            .into();
-    Ok(made)
 }

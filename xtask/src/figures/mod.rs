@@ -5,6 +5,7 @@ mod bump;
 mod burley;
 mod burley_bias;
 mod burley_deep;
+mod burley_opacity;
 mod curves;
 mod faults;
 mod heights;
@@ -83,7 +84,7 @@ pub const FIGURES: &[&Figure] = &[
     &wang_molnar_others::PCF_BIAS,
     &burley_bias::I75,
     &burley::I76,
-    &burley::I77,
+    &burley_opacity::I77,
     &burley_deep::DEEP,
     &curves::ACNE,
     &curves::NOISE,
