@@ -102,7 +102,8 @@ fn soft(cx: &Context) -> anyhow::Result<Made> {
     let truth = set.truth_disc(cx, &Frame::CENTRES, LIGHT);
     let (mut widths, mut contact, mut false_shadow) = (Vec::new(), Vec::new(), Vec::new());
     let at = |shadow: &dyn Shadow| -> Vec<(f64, f64)> {
-        let mean = |x: f64| (edge(&set, x, 1.0).0.width(cx, shadow) + edge(&set, x, -1.0).0.width(cx, shadow)) / 2.0;
+        let at = |x: f64, side: f64| edge(&set, x, side).0.width(cx, shadow);
+        let mean = |x: f64| f64::midpoint(at(x, 1.0), at(x, -1.0));
         PLACES.iter().map(|&x| (x, mean(x))).collect()
     };
     let geometry = Geometry::new(&set.scene, &set.scene.camera);
@@ -132,10 +133,11 @@ fn soft(cx: &Context) -> anyhow::Result<Made> {
     ));
     overlapping(cx, &mut made)?;
     made.note = format!(
-        "The light is a disc of radius {LIGHT}; {DISC_10_90:.3} of its penumbra lies between 10 and 90 %. Burley's largest radius is \
-        that of D-16 for occluders half-way up the box, and the constant biases are those of D-9 for the floor half-way along the shadow. \
-        Fernando's search of the same radius needs so large a bias that the box's shadow goes missing near its foot. Faces turned away \
-        from the light show what the map says of them; shading never asks."
+        "The light is a disc of radius {LIGHT}; {DISC_10_90:.3} of its penumbra lies between 10 and 90 %. \
+        Burley's largest radius is that of D-16 for occluders half-way up the box, and the constant biases are \
+        those of D-9 for the floor half-way along the shadow. Fernando's search of the same radius needs so \
+        large a bias that the box's shadow goes missing near its foot. Faces turned away from the light show \
+        what the map says of them; shading never asks."
     );
     Ok(made)
 }

@@ -177,10 +177,11 @@ fn cone(cx: &Context) -> anyhow::Result<Made> {
     ];
     contacts(cx, &mut made)?;
     pictures(cx, &mut made)?;
-    made.note = "The cone's price: an occluder counts only where it is nearer to the light than slope times the tap's distance \
-        from the receiver. Of a surface that covers the whole disc at height h above the receiver only the share (h / (slope · radius))² \
-        is seen: at large radii the outer taps miss what stands close, and contacts would fade. A radius that shrinks toward contacts \
-        (Image 76) avoids it. A constant bias as safe sees nothing at all below it."
+    made.note = "The cone's price: an occluder counts only where it is nearer to the light than slope times the \
+    tap's distance from the receiver. Of a surface that covers the whole disc at height h above the receiver \
+    only the share (h / (slope · radius))² is seen: at large radii the outer taps miss what stands close, and \
+    contacts would fade. A radius that shrinks toward contacts (Image 76) avoids it. A constant bias as safe \
+    sees nothing at all below it."
         .into();
     Ok(made)
 }
@@ -229,6 +230,9 @@ fn schematic(slope: &Slope) -> String {
     .svg()
 }
 
+/// What is expected of a height.
+type Law<'a> = &'a dyn Fn(f64) -> f64;
+
 /// How much of an occluder close above a level receiver is seen at all.
 fn contacts(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
     let level = Slope::new(cx, 0.0)?;
@@ -243,9 +247,9 @@ fn contacts(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
     let step = |height: f64| f64::from(u8::from(height > constant));
     let biased = format!("bias={constant}");
     let mut worst = 0.0f64;
-    let methods: [(&str, &str, &dyn Fn(f64) -> f64); 2] =
-        [("cone of slope 2", "depth=cone,slope=2,bias=0", &cone), ("constant bias as good at 63.4°", &biased, &step)];
-    for (name, depth, expected) in methods {
+    let cone = ("cone of slope 2", "depth=cone,slope=2,bias=0", &cone as Law);
+    let constant = ("constant bias as good at 63.4°", biased.as_str(), &step as Law);
+    for (name, depth, expected) in [cone, constant] {
         let (mut measured, mut predicted) = (Vec::new(), Vec::new());
         for index in 1..=24 {
             let height = radius * (f64::from(index) + 0.5) / 8.0;

@@ -1,4 +1,5 @@
-//! Burley 2006 on deep maps (after Lokovic & Veach 2000): casters that let light through, and casters that move, under one filter.
+//! Burley 2006 on deep maps (after Lokovic & Veach 2000): casters that let light through, and casters that move,
+//! under one filter.
 
 use super::penumbra::depth_step;
 use super::studio::{Set, colour_panel, error_panel, of, shadow_panel, value};
@@ -139,8 +140,10 @@ fn deep(cx: &Context) -> anyhow::Result<Made> {
         }
     }
     made.plots.push(("bytes".into(), curve.svg()));
-    made.note = "Each texel holds the mean of 16 samples (glass) or 4, and over the ball's moments; the oracle looks along its own rays, at other times. \
-        Shadows are those of a point light: what is soft here is glass, leaves and motion.".into();
+    made.note = "Each texel holds the mean of 16 samples (glass) or 4, and over the ball's moments; the oracle \
+    looks along its own rays, at other times. Shadows are those of a point light: what is soft here is glass, \
+    leaves and motion."
+        .into();
     Ok(made)
 }
 

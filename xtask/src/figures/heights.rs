@@ -1,4 +1,5 @@
-//! What Reeves, Salesin & Cook 1987 leave open, shown on purpose: the width of a filtered edge does not know how high its caster is.
+//! What Reeves, Salesin & Cook 1987 leave open, shown on purpose: the width of a filtered edge does not know how high
+//! its caster is.
 
 use super::penumbra::{DISC_10_90, Edge, axial, burley_max};
 use super::studio::{Set, error_panel, shadow_panel, truth_panel};
@@ -101,7 +102,10 @@ fn widths(cx: &Context) -> anyhow::Result<Made> {
         Measure::info("area light: 10–90 % width at height 40 (D-16)", exact[1], "texels"),
     ];
     made.plots.push(("ramps".into(), plot.svg()));
-    made.note = "The paper says that its edges are no penumbrae; this is what it means. One floor, one map, one filter, two heights.".into();
+    made.note =
+        "The paper says that its edges are no penumbrae; this is what it means. One floor, one map, one filter, \
+        two heights."
+            .into();
     Ok(made)
 }
 

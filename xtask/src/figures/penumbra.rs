@@ -1,4 +1,5 @@
-//! What the figures of soft shadows share: widths across a straight edge in world units, radii by D-16, and biases by D-9.
+//! What the figures of soft shadows share: widths across a straight edge in world units, radii by D-16, and biases by
+//! D-9.
 
 use super::studio::Set;
 use crate::figure::Context;
@@ -75,8 +76,8 @@ pub fn mean_shadow(cx: &Context, shadow: &dyn Shadow, points: &[SurfacePoint]) -
     fractions(cx, shadow, points).iter().map(|&dark| f64::from(dark)).sum::<f64>() / points.len().max(1) as f64
 }
 
-/// Rays to a disc in light 0's place; `radius` in world units, or the tangent of its angle when the light is directional. 256 a point,
-/// 64 in a quick run.
+/// Rays to a disc in light 0's place; `radius` in world units, or the tangent of its angle when the light is
+/// directional. 256 a point, 64 in a quick run.
 pub fn disc_light<'a>(cx: &Context, set: &Set, geometry: &'a Geometry, radius: f64) -> AreaLight<'a> {
     AreaLight::new(RayCast::new(geometry, &set.scene.lights[0].view), radius).with_samples(cx.pick(256, 64))
 }
@@ -86,13 +87,14 @@ pub fn axial(view: &View, world: DVec3) -> f64 {
     -view.world_to_eye().transform_point3(world).z
 }
 
-/// Half the penumbra of a disc light as Burley's largest radius, texels: exact for occluders at the axial distance `occluder` (D-16).
+/// Half the penumbra of a disc light as Burley's largest radius, texels: exact for occluders at the axial distance
+/// `occluder` (D-16).
 pub fn burley_max(view: &View, radius: f64, occluder: f64) -> f64 {
     if view.is_perspective() { radius / occluder / view.texel_world(1.0).x } else { f64::NAN }
 }
 
-/// World units that a plane's depth changes by over one texel, at a place of it: D-9's g₁ + g₂ when the slope is along an axis. In
-/// perspective the slope is that of D-15.
+/// World units that a plane's depth changes by over one texel, at a place of it: D-9's g₁ + g₂ when the slope is
+/// along an axis. In perspective the slope is that of D-15.
 pub fn depth_step(view: &View, world: DVec3, normal: DVec3) -> f64 {
     let eye = view.world_to_eye().transform_point3(world);
     let n = view.world_to_eye().transform_vector3(normal);

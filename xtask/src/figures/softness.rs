@@ -133,8 +133,10 @@ fn softness(cx: &Context) -> anyhow::Result<Made> {
         ));
     }
     made.panels.push(truth_panel(&truth).with("light's radius", SET));
-    made.note = "Widths are taken on the floor under the board's straight edge, 256 rays a point for the light itself. Set for one size and one \
-        height, all the filters agree; only the radius by the light's size follows.".into();
+    made.note = "Widths are taken on the floor under the board's straight edge, 256 rays a point for the light \
+    itself. Set for one size and one height, all the filters agree; only the radius by the light's size \
+    follows."
+        .into();
     Ok(made)
 }
 
