@@ -59,7 +59,7 @@ fn profile(cx: &Context) -> anyhow::Result<Made> {
     let starred = true_surface
         .iter()
         .map(|&(at, _)| at)
-        .filter(|&at| (1e-4..1.0).contains(&behind_stored(at)))
+        .filter(|&at| at > f64::from(start + 5) && (1e-4..1.0).contains(&behind_stored(at)))
         .max_by(|a, b| behind_stored(*a).total_cmp(&behind_stored(*b)))
         .ok_or_else(|| anyhow::anyhow!("no point of the profile lies behind its sample"))?;
     let world = view.world_at(DVec2::new(starred, f64::from(row) + 0.5), -1.0 / surface(starred)).as_vec3();
@@ -265,7 +265,7 @@ fn rim(cx: &Context) -> anyhow::Result<Made> {
             &format!("{name}-zoom"),
             &format!("{caption}, enlarged"),
             &picture,
-            DVec2::new(0.76, 0.5),
+            DVec2::new(0.40, 0.5),
             8,
         ));
         // Straight through the board's shadow, averaged over a fan of directions.
