@@ -1,6 +1,7 @@
 //! What is wrong with a scene before a map of it is made: values to act on, each with its line for people.
 
-use crate::predict::severe_perspective;
+use crate::predict::{Stored, severe_perspective};
+use crate::thin::too_thin;
 use umbrage_plane::View;
 use umbrage_scene::{Light, Scene, Shape};
 
@@ -53,6 +54,24 @@ pub enum Diagnostic {
         /// The object's name.
         object: String,
     },
+    /// A caster's texels span more depth than it is thick: whatever is stored inside it shadows it (Wang & Molnar 1994; WM94-17).
+    #[error(
+        "light {light:?}: object {object:?} is {thickness:.4} world units thick where depth changes by {step:.4} over the filter: \
+         a map of {side_needed} texels a side would do"
+    )]
+    TooThin {
+        /// The light's name.
+        light: String,
+        /// The object's name.
+        object: String,
+        /// Along the light's axis, world units.
+        thickness: f64,
+        /// What depth may be wrong by there, world units: τ·slope·(filter half-extent + ½), summed over the map's axes.
+        step: f64,
+        /// Texels along the map's longer side that bring the step down to what is stored behind the surface; `u32::MAX`
+        /// when none does.
+        side_needed: u32,
+    },
 }
 
 /// What a light's map is going to be used for.
@@ -62,14 +81,19 @@ pub struct Plan {
     pub depth_bits: Option<u32>,
     /// The bias, world units.
     pub bias_world: f64,
-    /// Whether the midpoint rule is used.
-    pub midpoint: bool,
+    /// What the map keeps.
+    pub stored: Stored,
+    /// Tangent of the steepest angle between a caster's surface and the map's plane that must be free of error, ≥ 0 (WM94-17).
+    /// 0 does not ask.
+    pub slope: f64,
+    /// Half-extent of the filter, texels.
+    pub filter_half: f64,
 }
 
 impl Default for Plan {
     /// Float depth of the first surface with Reeves' smaller bias.
     fn default() -> Self {
-        Self { depth_bits: None, bias_world: 0.3, midpoint: false }
+        Self { depth_bits: None, bias_world: 0.3, stored: Stored::First, slope: 0.0, filter_half: 0.0 }
     }
 }
 
@@ -89,7 +113,7 @@ pub fn diagnose(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
         let (light, bias) = (light.name.clone(), plan.bias_world);
         found.push(Diagnostic::SeverePerspective { light, bits, farthest, step, bias });
     }
-    if plan.midpoint
+    if plan.stored == Stored::Midpoint
         && let Some(receiver) = scene.objects.iter().find(|object| object.receives && !object.casts)
     {
         for object in scene.objects.iter().filter(|object| object.casts && !object.solid) {
@@ -107,6 +131,7 @@ pub fn diagnose(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
             found.push(Diagnostic::OpenSolid { object: object.name.clone() });
         }
     }
+    found.extend(scene.objects.iter().filter_map(|object| too_thin(object, light, plan)));
     found
 }
 

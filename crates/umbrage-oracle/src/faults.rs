@@ -1,5 +1,6 @@
 use crate::metrics::{
-    Grid, both, contact_gap, contour, dark_mask, deviation, false_shadow, leak, lit_mask, offsets, penumbra_mask, rms,
+    Grid, Profile, both, contact_gap, contour, dark_mask, deviation, false_shadow, leak, lit_mask, offsets,
+    penumbra_mask, rms,
 };
 use glam::{DVec2, Vec3};
 use umbrage_plane::SurfacePoint;
@@ -178,16 +179,7 @@ pub fn gap_on_surface(
     key: Key,
 ) -> Option<f32> {
     let direction = direction.try_normalize()?;
-    let dark = |distance: f32, region: u32| {
-        let way = direction * distance;
-        let at = SurfacePoint {
-            position: foot.position + way,
-            corners: foot.corners.map(|corner| corner + way),
-            region: foot.region.wrapping_add(region),
-            ..*foot
-        };
-        shadow.fraction(&at, key) >= 0.5
-    };
+    let dark = |distance: f32, region: u32| shadow.fraction(&carried(foot, direction * distance, region), key) >= 0.5;
     let steps = (limit / step).clamp(0.0, 1e7) as u32;
     let first = (0..=steps).find(|&index| dark(index as f32 * step, index))?;
     let (mut low, mut high) = (first.saturating_sub(1) as f32 * step, first as f32 * step);
@@ -200,6 +192,39 @@ pub fn gap_on_surface(
         }
     }
     Some(if first == 0 { 0.0 } else { high })
+}
+
+/// M1 without a picture: the shadow along a line of a surface, `half_width` world units to either side of `middle` toward
+/// `into_shadow` (in the surface's plane, need not be unit), asked at `points` places evenly, both ends included.
+///
+/// Distances are world units from `middle`, positive toward `into_shadow`. Each point is a region of its own, with the
+/// footprint of `middle` carried along. Empty when there is no direction, or fewer than 2 points. [`Profile::width`]
+/// is the penumbra's 10–90 % width in world units.
+pub fn profile_on_surface(
+    shadow: &dyn Shadow,
+    middle: &SurfacePoint,
+    into_shadow: Vec3,
+    half_width: f32,
+    points: u32,
+    key: Key,
+) -> Profile {
+    let Some(direction) = into_shadow.try_normalize().filter(|_| points >= 2) else { return Profile::default() };
+    let distance = |index: u32| f64::from(half_width) * (2.0 * f64::from(index) / f64::from(points - 1) - 1.0);
+    let places: Vec<SurfacePoint> =
+        (0..points).map(|index| carried(middle, direction * distance(index) as f32, index)).collect();
+    let mut dark = vec![0.0; places.len()];
+    shadow.fractions(&places, key, &mut dark);
+    Profile { points: (0..points).zip(dark).map(|(index, dark)| (distance(index), f64::from(dark))).collect() }
+}
+
+/// A region moved over its surface, under the name of another.
+fn carried(foot: &SurfacePoint, way: Vec3, region: u32) -> SurfacePoint {
+    SurfacePoint {
+        position: foot.position + way,
+        corners: foot.corners.map(|corner| corner + way),
+        region: foot.region.wrapping_add(region),
+        ..*foot
+    }
 }
 
 /// Linear RGB of a signed error in −1..1 (clamped), for heat maps: result minus truth.

@@ -17,12 +17,14 @@ pub struct Face {
 }
 
 /// What an object's id stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Body {
     /// Drawn into depth maps. Truth asks for it only under [`Truth::casters_only`](crate::Truth::casters_only).
     pub casts: bool,
     /// The closed boundary of a solid; false for an open sheet.
     pub solid: bool,
+    /// Share of the light that passes one surface of it, linear RGB in 0..=1; 0, the default, is opaque (EXT-3).
+    pub passes: Vec3,
 }
 
 /// Where a ray meets a surface.
@@ -83,8 +85,9 @@ impl Geometry {
                 object: object as u32,
             }));
         }
-        let bodies = scene.objects.iter().map(|thing| Body { casts: thing.casts, solid: thing.solid }).collect();
-        Self::from_faces(faces, bodies)
+        let bodies = scene.objects.iter();
+        let bodies = bodies.map(|thing| Body { casts: thing.casts, solid: thing.solid, passes: thing.passes });
+        Self::from_faces(faces, bodies.collect())
     }
 
     /// From triangles and what their objects are. Objects without a body count as sheets that do not cast; triangles
@@ -120,6 +123,11 @@ impl Geometry {
         self.bodies.get(object as usize).copied().unwrap_or_default()
     }
 
+    /// True when no object lets light through: rays then end at the first surface.
+    pub fn is_opaque(&self) -> bool {
+        self.bodies.iter().all(|body| body.passes == Vec3::ZERO)
+    }
+
     /// How far a point that was rounded to f32 may lie off the surface it came from, world units, with room to spare:
     /// eight half-ulps of its largest coordinate.
     pub fn margin(&self, at: DVec3) -> f64 {
@@ -146,7 +154,7 @@ impl Geometry {
         from: DVec3,
         direction: DVec3,
         reach: f64,
-        counts: impl Fn(f64, &Face, f64) -> bool,
+        mut counts: impl FnMut(f64, &Face, f64) -> bool,
     ) -> bool {
         let Some(direction) = direction.try_normalize() else { return false };
         let mut found = false;
@@ -156,6 +164,38 @@ impl Geometry {
             if found { None } else { Some(reach) }
         });
         found
+    }
+
+    /// What passes of the light along a ray, the product over the surfaces that `count`, nearer than `reach` world units.
+    ///
+    /// A ray through a shared edge meets both its faces but crosses one surface: faces of an object that are met from the
+    /// same side within [`Geometry::margin`] of each other count once.
+    pub(crate) fn passed(
+        &self,
+        from: DVec3,
+        direction: DVec3,
+        reach: f64,
+        counts: impl Fn(&Face, f64) -> bool,
+    ) -> Vec3 {
+        let Some(direction) = direction.try_normalize() else { return Vec3::ONE };
+        let mut passes = Vec3::ONE;
+        let mut crossed: Vec<(u32, bool, f64)> = Vec::new();
+        self.walk(&Ray::new(from, direction), reach, &mut |index, t| {
+            let face = &self.faces[index as usize];
+            if t < reach && counts(face, t) {
+                let outside = self.planes[index as usize].normal.dot(direction) < 0.0;
+                let slack = self.margin(from + direction * t);
+                let again = |&(object, side, at): &(u32, bool, f64)| {
+                    object == face.object && side == outside && (at - t).abs() <= slack
+                };
+                if !crossed.iter().any(again) {
+                    crossed.push((face.object, outside, t));
+                    passes *= self.body(face.object).passes;
+                }
+            }
+            (passes != Vec3::ZERO).then_some(reach)
+        });
+        passes
     }
 
     /// The nearest surface in a direction (need not be unit), both sides seen; at equal distances the face with the

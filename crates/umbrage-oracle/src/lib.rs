@@ -1,8 +1,9 @@
 //! Truth by ray casting, and the measures of shadow faults.
 //!
 //! The oracle is one more [`Shadow`](umbrage_shadow::Shadow): [`RayCast`] answers exactly for a point, [`AreaRegion`]
-//! for a pixel's region, [`AreaLight`] for a light with extent. [`metrics`] are the measures M1..M9 of the figures,
-//! [`faults`] gives the named faults of a picture with a heat map of each, [`predict`] what theory expects.
+//! for a pixel's region, [`AreaLight`] for a light with extent, [`Mean`] for a time that the shutter is open. [`metrics`]
+//! are the measures M1..M9 of the figures, [`faults`] gives the named faults of a picture with a heat map of each,
+//! [`predict`] what theory expects, [`BiasCase`] and [`BiasSearch`] whether a bias works, [`diagnose`] what to mend.
 //!
 //! ```
 //! use glam::{DVec4, Vec3};
@@ -20,14 +21,19 @@
 //! Conventions are those of `umbrage-plane`: 1 is dark, rows from the top, texel and pixel centres at +½. Nothing here
 //! draws or opens a file.
 
+mod bias;
 mod diagnose;
 mod faults;
 mod geometry;
+mod mean;
 pub mod metrics;
 pub mod predict;
+mod thin;
 mod truth;
 
+pub use bias::{BiasCase, BiasSearch, BiasWindow};
 pub use diagnose::{Diagnostic, Plan, diagnose};
-pub use faults::{Contact, Evidence, Fault, Faults, faults, gap_on_surface, heat, penumbra_width};
+pub use faults::{Contact, Evidence, Fault, Faults, faults, gap_on_surface, heat, penumbra_width, profile_on_surface};
 pub use geometry::{Body, Face, Geometry, Hit};
+pub use mean::Mean;
 pub use truth::{AreaLight, AreaRegion, RayCast, Truth};

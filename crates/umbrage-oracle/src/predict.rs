@@ -132,14 +132,21 @@ pub enum Stored {
     Second,
 }
 
+impl Stored {
+    /// How far behind what is stored a caster of `thickness` along the light ends: as far as a receiver that touches it
+    /// may be moved toward the light and stay dark. The rest of the thickness guards the caster from its own texels.
+    pub fn slack(self, thickness: f64) -> f64 {
+        match self {
+            Self::First => thickness,
+            Self::Midpoint => 0.5 * thickness,
+            Self::Second => 0.0,
+        }
+    }
+}
+
 /// Lit gap on the floor behind an upright leg of `thickness` along the light, light at `elevation`, ≥ 0 (D-10).
 pub fn contact_gap(bias: f64, thickness: f64, elevation: f64, stored: Stored) -> f64 {
-    let depth = match stored {
-        Stored::First => thickness,
-        Stored::Midpoint => 0.5 * thickness,
-        Stored::Second => 0.0,
-    };
-    (bias * elevation.cos() - depth).max(0.0)
+    (bias * elevation.cos() - stored.slack(thickness)).max(0.0)
 }
 
 /// True when no constant bias spares both the floor's acne and the contact of a leg of `thickness`: texels of
@@ -157,6 +164,29 @@ pub fn penumbra_width(diameter: f64, occluder: f64, receiver: f64) -> f64 {
 pub fn sky_penumbra_half_width(radians: f64, gap: f64) -> f64 {
     gap * radians.tan()
 }
+
+/// Half width of the same penumbra in the light's map, as a tangent: what a filter that is as wide as the truth has for
+/// half-extent, in the unit of x_n/k (D-16).
+pub fn penumbra_tangent(diameter: f64, occluder: f64, receiver: f64) -> f64 {
+    0.5 * diameter * (1.0 / occluder - 1.0 / receiver)
+}
+
+/// Share of its largest radius that Bunnell & Pellacini's soft shadow uses, 0..1 (B06-6). With a largest radius of
+/// diameter / 2·occluder it is [`penumbra_tangent`] (D-16).
+pub fn soft_radius_share(occluder: f64, receiver: f64) -> f64 {
+    ((receiver - occluder) / receiver).clamp(0.0, 1.0)
+}
+
+/// Shadow behind a straight edge under a disc light, `offset` from the middle of the penumbra in halves of its width,
+/// positive into the light: 1 up to −1, 0 from 1 on. The circle's part beyond a chord.
+pub fn disc_edge(offset: f64) -> f64 {
+    let x = offset.clamp(-1.0, 1.0);
+    (x.acos() - x * (1.0 - x * x).sqrt()) / std::f64::consts::PI
+}
+
+/// 10–90 % width of the penumbra of a straight edge under a disc light, as a share of its full width: where
+/// [`disc_edge`] is a tenth.
+pub const DISC_EDGE_10_90: f64 = 0.687_048_826_132_540_5;
 
 #[cfg(test)]
 mod tests {
@@ -302,5 +332,27 @@ mod tests {
     fn d16_penumbra() {
         near(penumbra_width(2.0, 10.0, 15.0), 1.0);
         near(sky_penumbra_half_width(0.1, 5.0), 0.501_673_36);
+    }
+
+    #[test]
+    fn v65_d16_penumbra_in_the_map() {
+        near(penumbra_width(2.0, 5.0, 10.0), 2.0);
+        near(penumbra_tangent(2.0, 5.0, 10.0), 0.1);
+        near(soft_radius_share(5.0, 10.0), 0.5);
+        // A largest radius of l / 2·occluder makes B06's radius the true one.
+        near(2.0 / (2.0 * 5.0) * soft_radius_share(5.0, 10.0), penumbra_tangent(2.0, 5.0, 10.0));
+    }
+
+    #[test]
+    fn d16_disc_edge_is_the_circle_s_part() {
+        near(disc_edge(-3.0), 1.0);
+        near(disc_edge(0.0), 0.5);
+        near(disc_edge(2.0), 0.0);
+        near(disc_edge(DISC_EDGE_10_90), 0.1);
+        near(disc_edge(-DISC_EDGE_10_90), 0.9);
+        let inside = |x: f64| 2.0 * (1.0 - x * x).sqrt() / std::f64::consts::PI;
+        let strips = 100_000;
+        let beyond: f64 = (0..strips).map(|i| inside(0.3 + 0.7 * (f64::from(i) + 0.5) / f64::from(strips))).sum();
+        assert!((disc_edge(0.3) - beyond * 0.7 / f64::from(strips)).abs() < 1e-6);
     }
 }

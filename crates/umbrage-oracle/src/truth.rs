@@ -1,10 +1,10 @@
-use crate::Geometry;
-use glam::{DVec2, DVec3, DVec4};
+use crate::{Face, Geometry};
+use glam::{DVec2, DVec3, DVec4, Vec3};
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use umbrage_plane::{SurfacePoint, Verdict, View};
 use umbrage_sample::Key;
-use umbrage_shadow::Shadow;
+use umbrage_shadow::{Shadow, Unshadowed};
 
 /// What counts as truth. The default is physical: every object blocks light.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -26,6 +26,8 @@ struct Lamp {
     at: DVec4,
     view: Option<View>,
     truth: Truth,
+    /// Nothing in the way is transparent.
+    opaque: bool,
 }
 
 impl Lamp {
@@ -44,31 +46,76 @@ impl Lamp {
         }
     }
 
-    /// True when no light comes to `at` from `light` (homogeneous as [`Lamp::at`]).
-    fn dark(&self, geometry: &Geometry, at: &SurfacePoint, light: DVec4) -> bool {
+    /// What passes of the light from `light` (homogeneous as [`Lamp::at`]) on its way to `at`.
+    fn passes(&self, geometry: &Geometry, at: &SurfacePoint, light: DVec4) -> Vec3 {
         let (surface, normal) = (at.position.as_dvec3(), at.normal.as_dvec3());
         let way = light.truncate() - surface * light.w;
         let facing = normal.dot(way);
         let body = geometry.body(at.object);
         let truth = &self.truth;
-        if body.solid && (body.casts || !truth.casters_only) && facing <= 0.0 {
-            return true;
+        let opaque = body.passes == Vec3::ZERO;
+        if body.solid && opaque && (body.casts || !truth.casters_only) && facing <= 0.0 {
+            return Vec3::ZERO;
         }
         // Off the surface, on the light's side: a rounding below it, a grazing ray would come out through a neighbour.
         let from = surface + normal * geometry.margin(surface).copysign(facing);
         let way = light.truncate() - from * light.w;
         let reach = if light.w == 0.0 { f64::INFINITY } else { way.length() };
-        geometry.blocked(from, way, reach, |_, face, t| {
+        let counts = |face: &Face, t: f64| {
             (!truth.casters_only || geometry.body(face.object).casts)
                 && !(face.object == at.object && t <= truth.own_slack)
-        })
+        };
+        if self.opaque {
+            // Any surface will do, whichever is found first.
+            let dark = geometry.blocked(from, way, reach, |_, face, t| counts(face, t));
+            return if dark { Vec3::ZERO } else { Vec3::ONE };
+        }
+        geometry.passed(from, way, reach, counts)
     }
 }
 
-/// Exact hard shadows by one ray a point: 0 or 1.
+/// What passes of the light, linear RGB, over a number of samples.
+#[derive(Clone, Copy)]
+struct Passed {
+    sum: Vec3,
+    samples: f32,
+}
+
+impl Passed {
+    const fn one(passes: Vec3) -> Self {
+        Self { sum: passes, samples: 1.0 }
+    }
+
+    /// Over `across`² jittered cells of the unit square.
+    fn over(across: u32, key: Key, passes: impl Fn(DVec2) -> Vec3) -> Self {
+        let across = across.max(1);
+        let mut sum = Vec3::ZERO;
+        for cell in 0..across * across {
+            let jitter = DVec2::new(f64::from(key.unit(cell, 0)), f64::from(key.unit(cell, 1)));
+            let corner = DVec2::new(f64::from(cell % across), f64::from(cell / across));
+            sum += passes((corner + jitter) / f64::from(across));
+        }
+        Self { sum, samples: (across * across) as f32 }
+    }
+
+    /// The mean shadow of the three channels. Sums of zeros and ones are exact: so is the share of dark samples.
+    fn shadow(self) -> f32 {
+        let all = 3.0 * self.samples;
+        (all - self.sum.element_sum()) / all
+    }
+
+    fn mean(self) -> Vec3 {
+        self.sum / self.samples
+    }
+}
+
+/// Exact hard shadows by one ray a point: 0 or 1, and between where light passes through things (EXT-3).
 ///
 /// * A point on a solid whose geometric normal does not face the light is dark: its own body is in the way. On a sheet
 ///   the ray alone decides, and the sheet at the point itself does not count.
+/// * Every surface on the way takes its share of the light ([`Body::passes`](crate::Body::passes)); the shadow is the mean
+///   over the channels of what is lost. A transparent solid is no exception to its own points: the surfaces of it that
+///   the ray crosses count, the one at the point itself does not.
 /// * Places that the light's [`Rules`](umbrage_plane::Rules) call shadowed are dark, those they call lit are lit (but
 ///   see [`Truth::look_everywhere`]); a ray decides all others, near and far plane regardless.
 /// * The ray starts [`Geometry::margin`] off the surface, on the light's side: enough that no convex surface shadows
@@ -82,7 +129,8 @@ pub struct RayCast<'a> {
 impl<'a> RayCast<'a> {
     /// Toward a light's view, by its rules.
     pub fn new(geometry: &'a Geometry, light: &View) -> Self {
-        let lamp = Lamp { at: light.light(), view: Some(*light), truth: Truth::default() };
+        let lamp =
+            Lamp { at: light.light(), view: Some(*light), truth: Truth::default(), opaque: geometry.is_opaque() };
         Self { geometry, lamp }
     }
 
@@ -90,7 +138,7 @@ impl<'a> RayCast<'a> {
     /// For lights of many views.
     pub fn everywhere(geometry: &'a Geometry, light: DVec4) -> Self {
         let at = if light.w == 0.0 { light.truncate().normalize_or_zero().extend(0.0) } else { light / light.w };
-        Self { geometry, lamp: Lamp { at, view: None, truth: Truth::default() } }
+        Self { geometry, lamp: Lamp { at, view: None, truth: Truth::default(), opaque: geometry.is_opaque() } }
     }
 
     /// The same with another notion of truth.
@@ -102,15 +150,28 @@ impl<'a> RayCast<'a> {
 
     /// 0 lit, 1 dark.
     pub fn at(&self, point: &SurfacePoint) -> f32 {
-        self.lamp
-            .verdict(point)
-            .unwrap_or_else(|| f32::from(u8::from(self.lamp.dark(self.geometry, point, self.lamp.at))))
+        Passed::one(self.passes(point)).shadow()
+    }
+
+    /// What passes of the light, linear RGB: 1 lit, 0 dark.
+    pub fn passes(&self, point: &SurfacePoint) -> Vec3 {
+        match self.lamp.verdict(point) {
+            Some(known) => Vec3::splat(1.0 - known),
+            None => self.lamp.passes(self.geometry, point, self.lamp.at),
+        }
     }
 }
 
 impl Shadow for RayCast<'_> {
     fn fractions(&self, at: &[SurfacePoint], _key: Key, out: &mut [f32]) {
         each(at, out, |point| self.at(point));
+    }
+
+    fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
+        if self.lamp.opaque {
+            return Unshadowed.transmittances(at, key, fractions, out);
+        }
+        each(at, out, |point| self.passes(point));
     }
 }
 
@@ -132,15 +193,26 @@ impl<'a> AreaRegion<'a> {
     }
 }
 
+impl AreaRegion<'_> {
+    fn passed(&self, point: &SurfacePoint, key: Key) -> Passed {
+        let [a, b, c, d] = point.corners.map(Vec3::as_dvec3);
+        Passed::over(self.across, key.region(point.region), |s| {
+            let position = a.lerp(b, s.x).lerp(d.lerp(c, s.x), s.y).as_vec3();
+            self.ray.passes(&SurfacePoint { position, corners: [position; 4], ..*point })
+        })
+    }
+}
+
 impl Shadow for AreaRegion<'_> {
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
-        each(at, out, |point| {
-            let [a, b, c, d] = point.corners.map(glam::Vec3::as_dvec3);
-            share(self.across, key.region(point.region), |s| {
-                let position = a.lerp(b, s.x).lerp(d.lerp(c, s.x), s.y).as_vec3();
-                self.ray.at(&SurfacePoint { position, corners: [position; 4], ..*point }) > 0.5
-            })
-        });
+        each(at, out, |point| self.passed(point, key).shadow());
+    }
+
+    fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
+        if self.ray.lamp.opaque {
+            return Unshadowed.transmittances(at, key, fractions, out);
+        }
+        each(at, out, |point| self.passed(point, key).mean());
     }
 }
 
@@ -176,10 +248,10 @@ impl<'a> AreaLight<'a> {
         self
     }
 
-    fn at(&self, point: &SurfacePoint, key: Key) -> f32 {
+    fn passed(&self, point: &SurfacePoint, key: Key) -> Passed {
         let lamp = &self.ray.lamp;
         if let Some(known) = lamp.verdict(point) {
-            return known;
+            return Passed::one(Vec3::splat(1.0 - known));
         }
         let axis = match (&lamp.view, lamp.at.w == 0.0) {
             (Some(view), false) => view.world_to_eye().row(2).truncate(),
@@ -187,30 +259,25 @@ impl<'a> AreaLight<'a> {
             (None, false) => lamp.at.truncate() - point.position.as_dvec3(),
         };
         let (right, up) = axis.normalize_or(DVec3::Z).any_orthonormal_pair();
-        share(self.across, key.region(point.region), |s| {
+        Passed::over(self.across, key.region(point.region), |s| {
             let on_disc = to_disc(s) * self.radius;
             let light = lamp.at + (right * on_disc.x + up * on_disc.y).extend(0.0);
-            lamp.dark(self.ray.geometry, point, light)
+            lamp.passes(self.ray.geometry, point, light)
         })
     }
 }
 
 impl Shadow for AreaLight<'_> {
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
-        each(at, out, |point| self.at(point, key));
+        each(at, out, |point| self.passed(point, key).shadow());
     }
-}
 
-/// The share of `across`² jittered cells of the unit square for which `dark` holds.
-fn share(across: u32, key: Key, dark: impl Fn(DVec2) -> bool) -> f32 {
-    let across = across.max(1);
-    let mut hits = 0u32;
-    for cell in 0..across * across {
-        let jitter = DVec2::new(f64::from(key.unit(cell, 0)), f64::from(key.unit(cell, 1)));
-        let corner = DVec2::new(f64::from(cell % across), f64::from(cell / across));
-        hits += u32::from(dark((corner + jitter) / f64::from(across)));
+    fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
+        if self.ray.lamp.opaque {
+            return Unshadowed.transmittances(at, key, fractions, out);
+        }
+        each(at, out, |point| self.passed(point, key).mean());
     }
-    hits as f32 / (across * across) as f32
 }
 
 /// The unit square onto the unit disc, areas kept, neighbours kept (Shirley & Chiu 1997).
@@ -227,7 +294,7 @@ fn to_disc(unit: DVec2) -> DVec2 {
     DVec2::from_angle(angle) * radius
 }
 
-fn each(at: &[SurfacePoint], out: &mut [f32], answer: impl Fn(&SurfacePoint) -> f32 + Sync) {
+fn each<T: Send>(at: &[SurfacePoint], out: &mut [T], answer: impl Fn(&SurfacePoint) -> T + Sync) {
     const BATCH: usize = 64;
     at.par_chunks(BATCH).zip(out.par_chunks_mut(BATCH)).for_each(|(at, out)| {
         for (point, out) in at.iter().zip(out) {

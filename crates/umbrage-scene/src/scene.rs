@@ -79,7 +79,15 @@ pub struct Object {
 impl Object {
     /// A closed mesh that casts and receives.
     pub fn solid(name: &str, mesh: Mesh, material: Material) -> Self {
-        Self { name: name.into(), shape: Shape::Mesh(mesh), material, casts: true, receives: true, solid: true, passes: Vec3::ZERO }
+        Self {
+            name: name.into(),
+            shape: Shape::Mesh(mesh),
+            material,
+            casts: true,
+            receives: true,
+            solid: true,
+            passes: Vec3::ZERO,
+        }
     }
 
     /// An open, two-sided shape that casts and receives.

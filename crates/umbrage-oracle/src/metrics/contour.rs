@@ -135,7 +135,7 @@ fn square(at: DVec2) -> (i64, i64) {
     ((at.x / SQUARE).floor() as i64, (at.y / SQUARE).floor() as i64)
 }
 
-fn to_segment(at: DVec2, [a, b]: &Segment) -> f64 {
+pub(super) fn to_segment(at: DVec2, [a, b]: &Segment) -> f64 {
     let along = *b - *a;
     let length_squared = along.length_squared();
     let t = if length_squared > 0.0 { ((at - *a).dot(along) / length_squared).clamp(0.0, 1.0) } else { 0.0 };

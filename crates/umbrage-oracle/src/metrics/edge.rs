@@ -29,7 +29,8 @@ impl Band {
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Profile {
     /// (mean distance of the bin's pixel centres from the edge, mean shadow), by increasing distance; empty bins are
-    /// left out. Pixels; positive on the shadow's side.
+    /// left out. Pixels (world units from [`profile_on_surface`](crate::profile_on_surface)), as are all that is measured
+    /// on it; positive on the shadow's side.
     pub points: Vec<(f64, f64)>,
 }
 

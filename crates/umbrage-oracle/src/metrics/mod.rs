@@ -14,12 +14,14 @@
 //! | M6 noise | [`penumbra_mask`], [`rms`] |
 //! | M7 contact gap | [`contact_gap`] |
 //! | M8 leak | [`dark_mask`], [`leak`] |
+//! | where second depth is judged | [`silhouette_distance`] |
 //! | M9 share of pixels | [`share`] |
 
 mod contour;
 mod edge;
 mod fit;
 mod mask;
+mod silhouette;
 mod spectrum;
 mod statistics;
 
@@ -30,6 +32,7 @@ pub(crate) use contour::{deviation, offsets};
 pub use edge::{Band, Profile, contact_gap, profile};
 pub use fit::{Fit, linear_fit, log_log_fit};
 pub use mask::{both, centroid, dark_mask, edge_mask, grown, iou, lit_mask, penumbra_mask, share};
+pub use silhouette::silhouette_distance;
 pub use spectrum::{Spectrum, spectrum};
 pub use statistics::{distinct_levels, false_shadow, leak, levels_per_region, lone_pixels, mean, rms};
 

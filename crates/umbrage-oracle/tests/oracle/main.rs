@@ -1,7 +1,10 @@
 //! Tests of the oracle and its measures against answers that are known without it.
+mod bias;
 mod bodies;
 mod diagnose;
 mod faults;
 mod metrics;
 mod rays;
+mod silhouette;
+mod transparent;
 mod truth;

@@ -7,8 +7,8 @@ use umbrage_plane::SurfacePoint;
 use umbrage_sample::Key;
 use umbrage_shadow::Shadow;
 
-const SOLID: Body = Body { casts: true, solid: true };
-const SHEET: Body = Body { casts: true, solid: false };
+const SOLID: Body = Body { casts: true, solid: true, passes: Vec3::ZERO };
+const SHEET: Body = Body { casts: true, solid: false, passes: Vec3::ZERO };
 
 fn direction() -> impl Strategy<Value = DVec3> {
     (-1.0..1.0, 0.0..std::f64::consts::TAU).prop_map(|(y, around): (f64, f64)| {

@@ -1,13 +1,15 @@
 //! X-5, EXT-1: regions, lights with extent, and the light's rules.
 use crate::bodies::{cuboid, floor, rectangle};
 use glam::{DMat3, DVec3, DVec4, UVec2, Vec3};
-use umbrage_oracle::{AreaLight, AreaRegion, Body, Face, Geometry, RayCast, Truth, gap_on_surface, predict};
+use umbrage_oracle::{
+    AreaLight, AreaRegion, Body, Face, Geometry, RayCast, Truth, gap_on_surface, predict, profile_on_surface,
+};
 use umbrage_plane::{Rules, SurfacePoint, View};
 use umbrage_sample::Key;
 use umbrage_scene::{Material, Mesh, Object, Scene, Shape};
 use umbrage_shadow::Shadow;
 
-const SOLID: Body = Body { casts: true, solid: true };
+const SOLID: Body = Body { casts: true, solid: true, passes: Vec3::ZERO };
 const KEY: Key = Key::new(5, 0, 0);
 
 /// A card at height 2 over x < 0, its edge above x = 0.
@@ -15,7 +17,7 @@ fn half_plane() -> Geometry {
     let corner = |x: f32, z: f32| Vec3::new(x, 2.0, z);
     let card =
         rectangle([corner(-90.0, -90.0), corner(-90.0, 90.0), corner(0.0, 90.0), corner(0.0, -90.0)], 0).to_vec();
-    Geometry::from_faces(card, vec![Body { casts: true, solid: false }])
+    Geometry::from_faces(card, vec![Body { casts: true, solid: false, passes: Vec3::ZERO }])
 }
 
 fn on_floor(x: f32) -> SurfacePoint {
@@ -104,7 +106,7 @@ fn c10_an_open_light_lights_what_its_map_does_not_hold() {
 fn truth_counts_every_object_unless_told() {
     let roof =
         |object| Face { corners: [(-9.0, -9.0), (0.0, 9.0), (9.0, -9.0)].map(|(x, z)| Vec3::new(x, 1.0, z)), object };
-    let geometry = Geometry::from_faces(vec![roof(0)], vec![Body { casts: false, solid: true }]);
+    let geometry = Geometry::from_faces(vec![roof(0)], vec![Body { casts: false, solid: true, passes: Vec3::ZERO }]);
     let below = on_floor(0.0);
     let roof_underside = SurfacePoint::at(Vec3::new(0.0, 1.0, 0.0), Vec3::NEG_Y);
     let truth = RayCast::everywhere(&geometry, DVec4::Y);
@@ -142,6 +144,7 @@ fn x5_a_scene_is_all_its_objects() {
         casts,
         receives: true,
         solid: !casts,
+        passes: Vec3::ZERO,
     };
     let scene = Scene {
         name: String::new(),
@@ -152,8 +155,53 @@ fn x5_a_scene_is_all_its_objects() {
         camera: lamp(Rules::OPEN),
     };
     let geometry = Geometry::new(&scene, &scene.camera);
-    assert_eq!(geometry.body(0), Body { casts: true, solid: false });
-    assert_eq!(geometry.body(1), Body { casts: false, solid: true });
+    assert_eq!(geometry.body(0), Body { casts: true, solid: false, passes: Vec3::ZERO });
+    assert_eq!(geometry.body(1), Body { casts: false, solid: true, passes: Vec3::ZERO });
     let met: Vec<(u32, f64)> = geometry.hits(DVec3::ZERO, DVec3::Y).iter().map(|hit| (hit.object, hit.t)).collect();
     assert_eq!(met, [(0, 1.0), (1, 2.0)]);
+}
+
+/// A shadow that grows along x from 0 at `from` to 1 at `to`.
+struct Ramp {
+    from: f32,
+    to: f32,
+}
+
+impl Shadow for Ramp {
+    fn fractions(&self, at: &[SurfacePoint], _key: Key, out: &mut [f32]) {
+        for (point, out) in at.iter().zip(out) {
+            *out = ((point.position.x - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
+        }
+    }
+}
+
+#[test]
+fn m1_world_width_of_a_ramp_along_a_line() {
+    let ramp = Ramp { from: 2.0, to: 5.0 };
+    let profile = profile_on_surface(&ramp, &on_floor(3.0), Vec3::X * 7.0, 6.0, 241, KEY);
+    assert_eq!((profile.points.len(), profile.points[0].0, profile.points[240].0), (241, -6.0, 6.0));
+    assert!((profile.width().unwrap() - 2.4).abs() < 1e-4);
+    assert!((profile.midpoint().unwrap() - 0.5).abs() < 1e-4);
+    // Across it at 60°: twice as wide along the line.
+    let slanted = Vec3::new(0.5, 0.0, 0.75f32.sqrt());
+    let profile = profile_on_surface(&ramp, &on_floor(3.5), slanted, 12.0, 481, KEY);
+    assert!((profile.width().unwrap() - 4.8).abs() < 1e-4);
+    assert_eq!(profile_on_surface(&ramp, &on_floor(3.5), Vec3::NEG_X, 6.0, 241, KEY).width(), None, "shadow behind");
+    assert!(profile_on_surface(&ramp, &on_floor(3.5), Vec3::ZERO, 6.0, 241, KEY).points.is_empty());
+    assert!(profile_on_surface(&ramp, &on_floor(3.5), Vec3::X, 6.0, 1, KEY).points.is_empty());
+}
+
+#[test]
+fn d16_v65_disc_edge_is_what_rays_find() {
+    let geometry = half_plane();
+    let light = RayCast::new(&geometry, &lamp(Rules::OPEN));
+    let truth = AreaLight::new(light, 0.5).with_samples(4096);
+    let width = predict::penumbra_width(1.0, 8.0, 10.0);
+    let profile = profile_on_surface(&truth, &on_floor(0.0), Vec3::NEG_X, width as f32, 401, KEY);
+    let ten_to_ninety = profile.width().unwrap();
+    assert!((ten_to_ninety / (predict::DISC_EDGE_10_90 * width) - 1.0).abs() < 0.01, "{ten_to_ninety}");
+    for &(distance, shadow) in &profile.points {
+        let predicted = predict::disc_edge(-2.0 * distance / width);
+        assert!((shadow - predicted).abs() < 0.01, "{distance}: {shadow} is not {predicted}");
+    }
 }

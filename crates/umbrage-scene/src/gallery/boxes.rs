@@ -8,12 +8,12 @@ const GREY: Material = Material::matt(Vec3::new(0.54, 0.52, 0.48));
 const RED: Material = Material::plastic(Vec3::new(0.70, 0.14, 0.08));
 const BLUE: Material = Material::plastic(Vec3::new(0.12, 0.26, 0.66));
 
-/// SC-F: a box that stands on a floor and throws a long shadow, sharp where it begins and soft where it ends, after Burley 2006
-/// (B06-I76).
+/// SC-F: a box that stands on a floor and throws a long shadow, sharp where it begins and soft where it ends, after
+/// Burley 2006 (B06-I76).
 ///
-/// The box (object 0) is 20 wide (x), 120 tall (y) and 80 deep (z), its foot about the origin; the floor (object 1) is a closed slab
-/// whose top is y = 0. Light 0 is 1000 away in direction −x, 40° above the horizon: the shadow runs along +x, between edges
-/// that start at the box's corners, and ends near x = 188. Map and picture are 1024 × 1024.
+/// The box (object 0) is 20 wide (x), 120 tall (y) and 80 deep (z), its foot about the origin; the floor (object 1) is
+/// a closed slab whose top is y = 0. Light 0 is 1000 away in direction −x, 40° above the horizon: the shadow runs
+/// along +x, between edges that start at the box's corners, and ends near x = 188. Map and picture are 1024 × 1024.
 ///
 /// # Panics
 /// Never: the views are constants.
@@ -41,12 +41,12 @@ pub fn overlapping_boxes() -> Scene {
     Scene { name: "overlapping-boxes".into(), ..scene }
 }
 
-/// Two boards with straight edges along z, their undersides 10 and 40 above one floor: filters of one width make both shadows
-/// equally soft, whatever the height (R87-nopen).
+/// Two boards with straight edges along z, their undersides 10 and 40 above one floor: filters of one width make both
+/// shadows equally soft, whatever the height (R87-nopen).
 ///
-/// Objects: the low board (0), the high board (1), the floor (2), a closed slab whose top is y = 0. Both boards end in the plane x = 5; light 0
-/// is 400 straight above the origin, so that the shadows end on the floor at x = 5·400/(400 − h), for the undersides'
-/// heights h = 10 and 40. Map and picture are 1024 × 1024.
+/// Objects: the low board (0), the high board (1), the floor (2), a closed slab whose top is y = 0. Both boards end in
+/// the plane x = 5; light 0 is 400 straight above the origin, so that the shadows end on the floor at x = 5·400/(400 −
+/// h), for the undersides' heights h = 10 and 40. Map and picture are 1024 × 1024.
 ///
 /// # Panics
 /// Never: the views are constants.
@@ -62,11 +62,12 @@ pub fn two_heights() -> Scene {
     )
 }
 
-/// One board with a straight edge along z, its underside 50 above a floor and light 0 400 straight above the origin: distances to occluder
-/// and receiver are 350 and 400 everywhere at the edge, so that an area light's penumbra is known (D-16).
+/// One board with a straight edge along z, its underside 50 above a floor and light 0 400 straight above the origin:
+/// distances to occluder and receiver are 350 and 400 everywhere at the edge, so that an area light's penumbra is
+/// known (D-16).
 ///
-/// Objects: the board (0), which ends in the plane x = 0, and the floor (1), whose top is y = 0; the shadow ends at x = 0 too. Map
-/// and picture are 1024 × 1024.
+/// Objects: the board (0), which ends in the plane x = 0, and the floor (1), whose top is y = 0; the shadow ends at x
+/// = 0 too. Map and picture are 1024 × 1024.
 ///
 /// # Panics
 /// Never: the views are constants.

@@ -3,8 +3,8 @@
 use crate::Mesh;
 use glam::DVec3;
 
-/// An open two-sided sheet over `at(u, v)`, `u` and `v` in 0..=1, cut into `columns` × `rows` pieces (at least 1). One surface, whose
-/// front is where u × v points. Normals are the surface's own, by differences; 0 where it has none.
+/// An open two-sided sheet over `at(u, v)`, `u` and `v` in 0..=1, cut into `columns` × `rows` pieces (at least 1). One
+/// surface, whose front is where u × v points. Normals are the surface's own, by differences; 0 where it has none.
 ///
 /// Rows that are drawn together to a point lose their empty triangles.
 pub(super) fn curved(columns: u32, rows: u32, at: impl Fn(f64, f64) -> DVec3) -> Mesh {

@@ -11,13 +11,13 @@ const GLASS: [(&str, Vec3); 4] = [
     ("blue", Vec3::new(0.08, 0.16, 0.85)),
 ];
 
-/// A window of coloured glass that stands on a white floor with the light behind it, and a yellow and a cyan pane before
-/// it: coloured shadows, and a green one where both lie over one another (B06-11).
+/// A window of coloured glass that stands on a white floor with the light behind it, and a yellow and a cyan pane
+/// before it: coloured shadows, and a green one where both lie over one another (B06-11).
 ///
-/// Objects: the floor (0), the frame (1), a closed solid, and sheets: red, amber, green and blue panes in it, two by two (2 to 5),
-/// the yellow pane (6) and the cyan pane (7), whose shadows overlap each other and the window's. What a pane lets pass is
-/// [`Object::passes`]. The floor's top is y = 0. The panes stand between light 0 and the part of the floor that the camera sees before them; the map
-/// is 512 × 512, the picture 1024 × 1024.
+/// Objects: the floor (0), the frame (1), a closed solid, and sheets: red, amber, green and blue panes in it, two by
+/// two (2 to 5), the yellow pane (6) and the cyan pane (7), whose shadows overlap each other and the window's. What a
+/// pane lets pass is [`Object::passes`]. The floor's top is y = 0. The panes stand between light 0 and the part of the
+/// floor that the camera sees before them; the map is 512 × 512, the picture 1024 × 1024.
 ///
 /// # Panics
 /// Never: the views are constants.

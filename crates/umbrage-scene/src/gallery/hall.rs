@@ -24,7 +24,8 @@ fn slab(min: [f32; 3], max: [f32; 3]) -> Mesh {
     Mesh::cuboid(min.into(), max.into())
 }
 
-/// The left wall: piers, and between them what is below and above each window, a little thinner and run into the piers.
+/// The left wall: piers, and between them what is below and above each window, a little thinner and run into the
+/// piers.
 pub(super) fn window_wall() -> Mesh {
     let mut mesh = Mesh::default();
     let starts = [-52.0].into_iter().chain(WINDOWS.map(|window| window[1]));
@@ -56,7 +57,8 @@ pub(super) fn mullions() -> Mesh {
     mesh
 }
 
-/// The back wall with its doorway, the right wall, the wall behind the camera, and the court's wall beyond the doorway.
+/// The back wall with its doorway, the right wall, the wall behind the camera, and the court's wall beyond the
+/// doorway.
 pub(super) fn plain_walls() -> Mesh {
     let mut mesh = slab([-53.0, -1.2, -52.0], [-10.0, 49.5, -48.0]);
     mesh.append(&slab([6.0, -1.2, -52.0], [53.5, 49.4, -48.0]));

@@ -53,7 +53,8 @@ const fn throw(bearing: f64, way: f64, tip: f64, hop: f64, head: f64) -> Throw {
     Throw { bearing, way, tip, hop, head }
 }
 
-/// By number from the head pin, rows from left to right as the bowler sees them. `None` stays. Found by trying ways at random until no two pins met in any frame.
+/// By number from the head pin, rows from left to right as the bowler sees them. `None` stays. Found by trying ways at
+/// random until no two pins met in any frame.
 const THROWS: [Option<Throw>; 10] = [
     Some(throw(-1.18, 7.09, 0.4, 12.83, 2.39)),
     Some(throw(-1.09, 7.52, 0.18, 9.07, 2.23)),

@@ -20,9 +20,10 @@ const AROUND: u32 = 14;
 
 /// A thicket of shiny pipes before a wall, after Wang & Molnar 1994, Figure 13 (WM94-F13): dense, curved and closed.
 ///
-/// Objects: the floor (0), whose top is y = 0, the wall (1), then a pipe each, with its collars; [`pipe_segments`] says of how many straight
-/// pieces they are. Pipes walk a lattice by a fixed rule, never two through one place; collars surround and caps close them. Light 0 is at upper left
-/// before them, with a map of 512 × 512; the picture is 1024 × 1024.
+/// Objects: the floor (0), whose top is y = 0, the wall (1), then a pipe each, with its collars; [`pipe_segments`]
+/// says of how many straight pieces they are. Pipes walk a lattice by a fixed rule, never two through one place;
+/// collars surround and caps close them. Light 0 is at upper left before them, with a map of 512 × 512; the picture is
+/// 1024 × 1024.
 ///
 /// # Panics
 /// Never: the views are constants.
@@ -63,7 +64,8 @@ pub fn pipe_segments() -> usize {
     runs().iter().map(|corners| corners.len() - 1).sum()
 }
 
-/// One pipe through its corners: straight pieces, quarter circles at bends, a collar round the middle of each long piece and at both ends.
+/// One pipe through its corners: straight pieces, quarter circles at bends, a collar round the middle of each long
+/// piece and at both ends.
 fn pipe(corners: &[IVec3]) -> Mesh {
     let at = |place: IVec3| (place.as_vec3() - 0.5 * (PLACES.as_vec3() - 1.0)).with_y(place.y as f32 + 0.6) * STEP;
     let unit = |from: IVec3, to: IVec3| (to - from).signum().as_vec3();

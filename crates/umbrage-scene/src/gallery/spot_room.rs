@@ -3,11 +3,13 @@ use super::views::camera;
 use crate::{Light, Material, Mesh, Object, Scene};
 use glam::{DVec3, UVec2, Vec3};
 
-/// SC-E: spheres, boxes and cylinders in a corner of a room under one wide spot, after Woo 1992, Figure 2 (W92-F2, W92-rim).
+/// SC-E: spheres, boxes and cylinders in a corner of a room under one wide spot, after Woo 1992, Figure 2 (W92-F2,
+/// W92-rim).
 ///
-/// Objects 0 to 2 are closed slabs: the floor, whose top is y = 0, the back wall and the left wall. Then come three spheres (3 to 5), three boxes
-/// (6 to 8) and three cylinders (9 to 11). Light 0 is a spot of 75° with a map of 256 × 256; its cone ends on the floor and on
-/// both walls, and shadows of the objects near its rim run out over it. The picture is 1024 × 1024.
+/// Objects 0 to 2 are closed slabs: the floor, whose top is y = 0, the back wall and the left wall. Then come three
+/// spheres (3 to 5), three boxes (6 to 8) and three cylinders (9 to 11). Light 0 is a spot of 75° with a map of 256 ×
+/// 256; its cone ends on the floor and on both walls. The tall box and the tall post reach out of it, and their
+/// shadows run over its rim. The picture is 1024 × 1024.
 ///
 /// # Panics
 /// Never: the views are constants.
@@ -38,10 +40,10 @@ pub fn spot_room() -> Scene {
         ("white ball", ball(-44.0, 30.0, 7.0), shiny(0.75, 0.75, 0.75)),
         ("low box", crate_at(8.0, 0.0, -24.0, [26.0, 10.0, 18.0]), shiny(0.16, 0.52, 0.22)),
         ("small box", crate_at(14.0, 10.0, -20.0, [11.0, 11.0, 11.0]), shiny(0.80, 0.62, 0.12)),
-        ("tall box", crate_at(-38.0, 0.0, -40.0, [13.0, 34.0, 13.0]), shiny(0.45, 0.28, 0.60)),
+        ("tall box", crate_at(-38.0, 0.0, -40.0, [13.0, 54.0, 13.0]), shiny(0.45, 0.28, 0.60)),
         ("fat post", post(-26.0, -4.0, 6.0, 20.0), shiny(0.20, 0.55, 0.60)),
-        ("tall post", post(44.0, -10.0, 2.5, 26.0), shiny(0.70, 0.68, 0.64)),
-        ("thin post", post(8.0, 44.0, 1.2, 22.0), shiny(0.70, 0.68, 0.64)),
+        ("tall post", post(49.0, -10.0, 2.5, 38.0), shiny(0.70, 0.68, 0.64)),
+        ("thin post", post(12.0, 46.0, 1.2, 20.0), shiny(0.70, 0.68, 0.64)),
     ];
     let spot = Light::spot(
         "spot",

@@ -13,14 +13,15 @@ const LEG: f32 = 8.0;
 /// How thick the floor is: many texels, so that its second surface is far from its first.
 const FLOOR: f32 = 60.0;
 
-/// SC-D: a table on a floor, its thin legs touching it, after Wang & Molnar 1994, Figures 4 and 12 (WM94-F4, WM94-F12).
+/// SC-D: a table on a floor, its thin legs touching it, after Wang & Molnar 1994, Figures 4 and 12 (WM94-F4,
+/// WM94-F12).
 ///
-/// Objects: the floor (0), 2000 × 2000, whose top is y = 0; the table top (1), 600 × 400 × 20 at height 400; its four legs
-/// (2 to 5), 8 × 8, 20 inside the top's edges. All are closed, cast and receive. Legs stand on the floor, face on face, and
-/// end 10 inside the top, so that no light passes between. Light 0 is at distance 3500 in direction −x, 25° above the
-/// horizon, aimed at the origin: faces of the legs are square to its bearing, so that a leg is 8 thick along the light
-/// (D-10). Its map is 512 × 512 and a texel 3.92 wide at the origin. The picture is 512 × 512; see [`table_close_up`] for a
-/// single leg.
+/// Objects: the floor (0), 2000 × 2000, whose top is y = 0; the table top (1), 600 × 400 × 20 at height 400; its four
+/// legs (2 to 5), 8 × 8, 20 inside the top's edges. All are closed, cast and receive. Legs stand on the floor, face on
+/// face, and end 10 inside the top, so that no light passes between. Light 0 is at distance 3500 in direction −x, 25°
+/// above the horizon, aimed at the origin: faces of the legs are square to its bearing, so that a leg is 8 thick along
+/// the light (D-10). Its map is 512 × 512 and a texel 3.92 wide at the origin. The picture is 512 × 512; see
+/// [`table_close_up`] for a single leg.
 ///
 /// # Panics
 /// Never: the views are constants.
@@ -50,8 +51,8 @@ pub fn table() -> Scene {
     }
 }
 
-/// [`table`] with the camera, 512 × 512, close on the foot of leg 1 (object 2), the one that stands nearest to light and camera,
-/// and on its shadow, whose way to the far side of the picture nothing else crosses.
+/// [`table`] with the camera, 512 × 512, close on the foot of leg 1 (object 2), the one that stands nearest to light
+/// and camera, and on its shadow, whose way to the far side of the picture nothing else crosses.
 ///
 /// # Panics
 /// Never: the views are constants.

@@ -4,13 +4,14 @@ use super::views::camera;
 use crate::{Light, Material, Mesh, Object, Scene, Shape};
 use glam::{DVec3, UVec2, Vec3};
 
-/// A hall in the sun, as one walks through a building, after Wang & Molnar 1994, Figure 14 (WM94-F14): polygons large and
-/// thin, solids and sheets together.
+/// A hall in the sun, as one walks through a building, after Wang & Molnar 1994, Figure 14 (WM94-F14): polygons large
+/// and thin, solids and sheets together.
 ///
-/// Solids: `floor`, whose top is y = 0, `window wall` with three tall windows, `walls` with a doorway to a court behind, `ceiling`, `beams`, `columns`,
-/// `mullions` (0.7 thin), `stairs` along the right wall, `railing`, `bench` and `pot`. Sheets, two-sided: `awnings` over the windows outside, a folding
-/// paper `screen` and `leaves`. All cast and receive. Light 0 is the sun, at infinity, 26° above the horizon to the left; its
-/// map, 2048 × 2048, holds everything. Light 1, the sky, is dim and casts no shadow. The picture is 1024 × 1024.
+/// Solids: `floor`, whose top is y = 0, `window wall` with three tall windows, `walls` with a doorway to a court
+/// behind, `ceiling`, `beams`, `columns`, `mullions` (0.7 thin), `stairs` along the right wall, `railing`, `bench` and
+/// `pot`. Sheets, two-sided: `awnings` over the windows outside, a folding paper `screen` and `leaves`. All cast and
+/// receive. Light 0 is the sun, at infinity, 26° above the horizon to the left; its map, 2048 × 2048, holds
+/// everything. Light 1, the sky, is dim and casts no shadow. The picture is 1024 × 1024.
 ///
 /// # Panics
 /// Never: the views are constants.
@@ -19,7 +20,7 @@ pub fn walkthrough() -> Scene {
     let matt = |r: f32, g: f32, b: f32| Material::matt(Vec3::new(r, g, b));
     let wood = Material { diffuse: Vec3::new(0.34, 0.19, 0.09), specular: Vec3::splat(0.10), shininess: 30.0 };
     let floor = slab([-66.0, -4.0, -84.0], [56.0, 0.0, 58.0]);
-    let tiles = Material { diffuse: Vec3::new(0.60, 0.50, 0.40), specular: Vec3::splat(0.08), shininess: 50.0 };
+    let tiles = Material { diffuse: Vec3::new(0.50, 0.40, 0.31), specular: Vec3::splat(0.08), shininess: 50.0 };
     let mut seat = slab([-14.0, 6.0, -37.0], [14.0, 7.5, -29.0]);
     for x in [-12.0, 9.0] {
         seat.append(&slab([x, 0.0, -36.0], [x + 3.0, 6.5, -30.0]));
@@ -72,10 +73,10 @@ pub fn walkthrough() -> Scene {
         name: "walkthrough".into(),
         objects,
         lights: vec![
-            sun.expect("a constant view is valid").coloured(Vec3::new(1.9, 1.65, 1.25)),
+            sun.expect("a constant view is valid").coloured(Vec3::new(2.6, 2.2, 1.6)),
             Light { casts: false, ..sky.expect("a constant view is valid").coloured(Vec3::new(0.30, 0.32, 0.38)) },
         ],
-        ambient: Vec3::new(0.13, 0.135, 0.15),
+        ambient: Vec3::new(0.11, 0.115, 0.13),
         background: Vec3::new(0.45, 0.60, 0.80),
         camera: camera([10.0, 19.0, 52.0], [0.0, 15.0, -20.0], 70.0, [1.0, 300.0], UVec2::splat(1024)),
     }

@@ -14,9 +14,9 @@ fn framed(view: &View, at: Vec3) -> bool {
     inside && (view.near()..=view.far()).contains(&-eye.z)
 }
 
-/// Points all over a triangle; many when it is large.
+/// Points all over a triangle; many when it is large, but no more than 400 along a side.
 fn spread([a, b, c]: [Vec3; 3]) -> impl Iterator<Item = Vec3> {
-    let steps = ((b - a).length().max((c - a).length()).ceil() as u32).max(1);
+    let steps = ((b - a).length().max((c - a).length()).ceil() as u32).clamp(1, 400);
     (0..=steps).flat_map(move |i| {
         (0..=steps - i).map(move |j| a + (b - a) * (i as f32 / steps as f32) + (c - a) * (j as f32 / steps as f32))
     })
@@ -62,6 +62,9 @@ fn reaches_beyond(scene: &str, light: &str, object: &str) -> bool {
             _ => false,
         },
         "bicycle-shop" => true,
+        "bowling" => ["lane", "gutters", "side walls"].contains(&object),
+        "spot-room" => object.ends_with("wall") || object == "floor" || object.starts_with("tall"),
+        "walkthrough" | "contact-box" | "grazing" => false,
         _ => ["slab", "wall", "floor", "column"].contains(&object),
     }
 }
@@ -78,7 +81,7 @@ fn w78_8_what_throws_the_shadows_is_framed_by_every_light() {
                 if !light.casts {
                     continue;
                 }
-                if object.name == "box" {
+                if *name == "box-plane" && object.name == "box" {
                     let edge = object.shape.hull().filter(|at| at.x == 0.0);
                     assert_eq!(edge.filter(|at| framed(&light.view, *at)).count(), 12);
                 } else {

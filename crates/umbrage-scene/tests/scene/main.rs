@@ -6,4 +6,7 @@ mod gallery;
 mod lights;
 mod meshes;
 mod patches;
+mod rays;
+mod reconstructions;
+mod rolling;
 mod trees;
