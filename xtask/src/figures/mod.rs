@@ -14,11 +14,13 @@ mod slice;
 mod sphere_plane;
 mod spheres;
 mod studio;
+mod wang_molnar_bias;
 mod wang_molnar_ideas;
 mod wang_molnar_listing;
 mod wang_molnar_others;
 mod wang_molnar_planes;
 mod wang_molnar_second;
+mod wang_molnar_spaces;
 mod williams_scenes;
 mod williams_shadow;
 mod williams_views;
@@ -66,12 +68,12 @@ pub const FIGURES: &[&Figure] = &[
     &woo::COST,
     &wang_molnar_ideas::F1,
     &wang_molnar_ideas::F2,
-    &wang_molnar_ideas::F3,
+    &wang_molnar_bias::F3,
     &wang_molnar_second::F5,
     &wang_molnar_second::F6,
     &wang_molnar_planes::F8,
     &wang_molnar_listing::F10,
-    &wang_molnar_planes::F11,
+    &wang_molnar_spaces::F11,
     &wang_molnar_others::TAGS,
     &wang_molnar_others::PCF_BIAS,
     &curves::ACNE,
