@@ -32,8 +32,8 @@ fn leg(degrees: f64, columns: u32, phase: f64) -> anyhow::Result<Slice> {
     Slice::new(
         "leg",
         vec![rectangle([-200.0, -20.0], [260.0, 0.0]), rectangle([0.0, 0.0], [THICK, 60.0])],
-        slice::sun(to_light, DVec2::new(10.0, 12.0) + across * phase, 60.0, columns)?,
-        slice::eye([90.0, 55.0], [14.0, 6.0], 44.0, 400)?,
+        &slice::sun(to_light, DVec2::new(10.0, 12.0) + across * phase, 60.0, columns)?,
+        &slice::eye([90.0, 55.0], [14.0, 6.0], 44.0, 400)?,
     )
 }
 

@@ -44,8 +44,8 @@ fn passes(cx: &Context) -> anyhow::Result<Made> {
     let slice = Slice::new(
         "two-passes",
         vec![rectangle([-56.0, -6.0], [60.0, 0.0]), rectangle([-16.0, 0.0], [-6.0, 17.0]), disc([17.0, 11.0], 9.0)],
-        slice::lamp(light.into(), [2.0, 4.0], 62.0, 40)?,
-        slice::eye(eye.into(), [20.0, 0.0], 76.0, 72)?,
+        &slice::lamp(light.into(), [2.0, 4.0], 62.0, 40)?,
+        &slice::eye(eye.into(), [20.0, 0.0], 76.0, 72)?,
     )?;
     let map = slice.bake(&First);
     let geometry = Geometry::new(&slice.scene, &slice.scene.camera);
@@ -54,7 +54,7 @@ fn passes(cx: &Context) -> anyhow::Result<Made> {
     // The same with a map of many more columns.
     let mut fine = Slice { scene: slice.scene.clone(), outlines: slice.outlines.clone() };
     fine.scene.lights[0].view = slice::lamp(light.into(), [2.0, 4.0], 62.0, 640)?;
-    let by_fine = fine.seen(cx, &*bind(presets::ordinary(Bias::Steps(0.75)), &fine.bake(&First), cx.storage));
+    let by_fine = fine.seen(cx, &*bind(presets::ordinary(Bias::Steps(0.75)), fine.bake(&First), cx.storage));
     let unlike = |picture: &Picture| {
         let both = samples(picture).zip(samples(&truth));
         both.filter(|(ours, exact)| ours.1 != exact.1).map(|pair| pair.0.0).collect::<Vec<DVec2>>()
@@ -85,6 +85,7 @@ fn passes(cx: &Context) -> anyhow::Result<Made> {
     let by_rays = frame("The same by rays")
         .named(Mark::Dots(3.5), LIT, &those(&truth, false), "lit")
         .named(Mark::Dots(3.5), DARK, &those(&truth, true), "in shadow")
+        .named(Mark::Rings(7.0), Ink::Plain, &unlike(&by_fine), "a map of 641 columns says otherwise")
         .draw(Mark::Dots(6.0), Ink::Plain, &[light, eye]);
     Ok(Made {
         plots: vec![
@@ -123,7 +124,7 @@ pub const F2: Figure = Figure {
 pub fn slope(cx: &Context, title: &str, steps: f32) -> anyhow::Result<(Diagram, usize)> {
     let wedge = [[-12.0, -9.0], [12.0, -9.0], [12.0, 6.6], [-12.0, -6.6]].map(DVec2::from).to_vec();
     let light = slice::sun(DVec2::Y, DVec2::ZERO, 9.0, 8)?;
-    let slice = Slice::new("slope", vec![wedge], light, slice::eye([-15.0, 17.0], [0.0, 0.0], 58.0, 51)?)?;
+    let slice = Slice::new("slope", vec![wedge], &light, &slice::eye([-15.0, 17.0], [0.0, 0.0], 58.0, 51)?)?;
     let map = slice.bake(&First);
     let picture = slice.seen(cx, &*bind(presets::ordinary(Bias::Steps(steps)), &map, cx.storage));
     let inside = |points: Vec<DVec2>| points.into_iter().filter(|at| at.x.abs() < 9.0).collect::<Vec<_>>();

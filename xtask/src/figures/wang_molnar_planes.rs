@@ -71,7 +71,7 @@ fn triangle(view: &View, key: Key, i: u32) -> Option<[Vec3; 3]> {
     }
     let across = normal.any_orthonormal_vector() * 6.0;
     let along = normal.cross(across);
-    Some([through - across - along, through + across - along, through + along * 1.7].map(|corner| corner.as_vec3()))
+    Some([through - across - along, through + across - along, through + along * 1.7].map(DVec3::as_vec3))
 }
 
 fn apart(view: &View, key: Key, planes: u32) -> Apart {
@@ -170,8 +170,8 @@ fn tangent() -> anyhow::Result<(String, [f64; 2])> {
     let slice = Slice::new(
         "tangent",
         vec![disc(centre.into(), radius), board.clone()],
-        light,
-        slice::eye([60.0, 40.0], [0.0, 0.0], 40.0, 9)?,
+        &light,
+        &slice::eye([60.0, 40.0], [0.0, 0.0], 40.0, 9)?,
     )?;
     let map = slice.bake(&Second);
     let first = slice.bake(&First);

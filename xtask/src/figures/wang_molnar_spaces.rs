@@ -115,8 +115,8 @@ fn frames() -> anyhow::Result<String> {
     let slice = Slice::new(
         "frames",
         vec![rectangle([-40.0, -4.0], [40.0, 0.0]), rectangle([-10.0, 0.0], [-3.0, 9.0]), disc([8.0, 5.0], 5.0)],
-        light,
-        camera,
+        &light,
+        &camera,
     )?;
     let mut diagram = slice.outlined(Diagram::new(
         "Camera, light and world in one slice",
