@@ -7,11 +7,15 @@ use umbrage_plane::{Bias, Footprint, Kind, Receiver, Sampling, SurfacePoint, Ver
 use umbrage_raster::Cull;
 use umbrage_render::{Soup, bake};
 use umbrage_sample::{
-    Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Uniform, each_tap,
+    Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Tent, Uniform,
+    each_tap,
 };
 use umbrage_scene::gallery;
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
-use umbrage_shadow::{Biased, Filter, OnPlane, Ordinary, Pcf, ReceiverDepth, ShadowMap, Williams};
+use umbrage_shadow::{
+    Biased, Conditional, Cone, Extent, Filter, IntegerFirst, OnPlane, Opacity, Ordinary, Pcf, Radius, ReceiverDepth,
+    ShadowMap, Soft, Softness, Williams, presets,
+};
 
 const KEY: Key = Key::new(11, 0, 0);
 
@@ -46,7 +50,11 @@ fn receivers(map: &Tiled, count: u32) -> Vec<Receiver> {
 }
 
 fn ask<F: Filter, M: DepthMap>(filter: &F, map: &M, receiver: &Receiver, key: Key) -> f32 {
-    dispatch!(Level::new(), simd => filter.shadow(simd, map, receiver, key, &mut ()))
+    ask_at(Level::new(), filter, map, receiver, key)
+}
+
+fn ask_at<F: Filter, M: DepthMap>(level: Level, filter: &F, map: &M, receiver: &Receiver, key: Key) -> f32 {
+    dispatch!(level, simd => filter.shadow(simd, map, receiver, key, &mut ()))
 }
 
 /// Percentage-closer filtering one tap at a time, without ranges, tiles or lanes.
@@ -96,15 +104,20 @@ fn r87_13_r87_22_simd_and_culling_agree_with_one_tap_at_a_time() {
     twin(InsideQuadReject::default(), &maps);
     twin(InsideQuadWarp::default(), &maps);
     twin(Disc::default(), &maps);
+    twin(Tent, &maps);
 }
 
-/// A filter over every storage of a map.
+/// A filter over every storage of a map, and with the least instructions that every machine has.
 fn storages_agree<F: Filter>(name: &str, filter: &F, map: &Tiled) {
     let (raw, boxed) = (Raw::from(map), Bbox::from(map));
     for (i, receiver) in receivers(map, 4000).iter().enumerate() {
         let key = KEY.region(i as u32);
-        let answers =
-            [ask(filter, &raw, receiver, key), ask(filter, &boxed, receiver, key), ask(filter, map, receiver, key)];
+        let answers = [
+            ask(filter, &raw, receiver, key),
+            ask(filter, &boxed, receiver, key),
+            ask(filter, map, receiver, key),
+            ask_at(Level::baseline(), filter, map, receiver, key),
+        ];
         assert!(answers.iter().all(|answer| answer.to_bits() == answers[0].to_bits()), "{name}, {i}: {answers:?}");
         assert!((0.0..=1.0).contains(&answers[0]), "{name}, {i}: {answers:?}");
     }
@@ -137,18 +150,72 @@ fn on_plane<P: Pattern>(pattern: P) -> Pcf<P, OnPlane> {
 }
 
 #[test]
+fn w92_7_wm94_5_b06_6_woo_s_wang_and_molnar_s_and_burley_s_filters_answer_alike_over_every_storage() {
+    for (kind, sampling) in [
+        (Kind::Axial, Sampling::Jittered { seed: 9 }),
+        (Kind::Screen, Sampling::Centre),
+        (Kind::Radial, Sampling::Centre),
+    ] {
+        let map = baked(kind, sampling);
+        storages_agree("woo", &presets::woo92(), &map);
+        storages_agree("integer first", &IntegerFirst::default(), &map);
+        let nearest = presets::wang_molnar94();
+        storages_agree("wang and molnar", &nearest, &map);
+        let Conditional { plane, min_cos, when, dark_backs, .. } = nearest;
+        let tent = Conditional { pattern: Tent, res_factor: 1.0, min_size: 1.0, plane, min_cos, when, dark_backs };
+        storages_agree("weighted", &tent, &map);
+        let burley = presets::burley();
+        storages_agree("burley", &burley, &map);
+        storages_agree("rescued", &Soft { rescue: true, ..burley }, &map);
+        let softness = Softness::Between { min: Extent::Share(0.01), max: Extent::World(9.0) };
+        let opacity = Opacity { near: 0.9, far: 0.2, fade: 20.0, gamma: 0.7 };
+        storages_agree("faint", &Soft { softness, opacity, radius_gamma: 0.5, ..burley }, &map);
+        storages_agree("light", &Soft { softness: Softness::Light { radius: 4.0, nearest: 20.0 }, ..burley }, &map);
+        storages_agree("fernando", &presets::fernando(Bias::World(0.5)), &map);
+    }
+}
+
+/// Depth ranges settle regions under a cone and on planes of any reach, and change no answer.
+#[test]
+fn r87_22_culling_changes_no_answer_whatever_depth_is_compared() {
+    fn both_ways<D: ReceiverDepth + Copy>(name: &str, depth: D, map: &Tiled) {
+        let filter = |cull| Pcf { pattern: Disc::default(), depth, res_factor: 1.0, min_size: 1.0, cull };
+        for (i, receiver) in receivers(map, 3000).iter().enumerate() {
+            let key = KEY.region(i as u32);
+            let (with, without) = (ask(&filter(true), map, receiver, key), ask(&filter(false), map, receiver, key));
+            assert_eq!(with, without, "{name} {i}");
+        }
+    }
+    for kind in [Kind::Axial, Kind::Screen, Kind::Radial] {
+        let map = baked(kind, Sampling::Jittered { seed: 5 });
+        both_ways("cone", Cone::default(), &map);
+        both_ways("nominal", Cone { radius: Radius::Nominal, base: 0.1, slope: 0.5 }, &map);
+        both_ways("near plane", OnPlane { slack: 1.0, reach: 0.5, ..OnPlane::default() }, &map);
+    }
+}
+
+#[test]
 fn bounds_enclose_every_compared_depth() {
-    let map = baked(Kind::Axial, Sampling::Jittered { seed: 2 });
+    for kind in [Kind::Axial, Kind::Screen, Kind::Radial] {
+        let map = baked(kind, Sampling::Jittered { seed: 2 });
+        encloses("plane", &OnPlane::biased(Bias::World(0.2)), &map);
+        encloses("near plane", &OnPlane { slack: 1.0, reach: 0.25, bias: Bias::Texels(0.5) }, &map);
+        encloses("biased", &Biased::default(), &map);
+        encloses("cone", &Cone::default(), &map);
+        encloses("nominal cone", &Cone { base: 0.3, slope: 1.0, radius: Radius::Nominal }, &map);
+    }
+}
+
+fn encloses<D: ReceiverDepth>(name: &str, depth: &D, map: &Tiled) {
     let view = map.view();
-    for (i, receiver) in receivers(&map, 2000).iter().enumerate() {
+    for (i, receiver) in receivers(map, 2000).iter().enumerate() {
         let rect = umbrage_plane::TexelRect::around(receiver.footprint.centre, receiver.footprint.half);
-        let (plane, biased) = (OnPlane::biased(Bias::World(0.2)), Biased::default());
-        let (on_plane, constant) = (plane.bounds(view, receiver, rect), biased.bounds(view, receiver, rect));
+        let bounds = depth.bounds(view, receiver, rect);
         dispatch!(Level::new(), simd => Jittered::default().taps(simd, &receiver.footprint, KEY.region(i as u32), |taps| {
-            let (a, b) = (plane.lanes(simd, view, receiver, taps), biased.lanes(simd, view, receiver, taps));
+            let compared = depth.lanes(simd, view, receiver, taps);
             for lane in (0..16).filter(|lane| taps.mask >> lane & 1 == 1) {
-                assert!((on_plane.min..=on_plane.max).contains(&a[lane]), "{} not in {on_plane:?}", a[lane]);
-                assert!((constant.min..=constant.max).contains(&b[lane]), "{} not in {constant:?}", b[lane]);
+                let compared = compared[lane];
+                assert!((bounds.min..=bounds.max).contains(&compared), "{name} {i}: {compared} not in {bounds:?}");
             }
         }));
     }
@@ -156,7 +223,7 @@ fn bounds_enclose_every_compared_depth() {
 
 #[test]
 fn shadow_maps_are_asked_in_batches_or_one_by_one_alike() {
-    use umbrage_shadow::{Shadow, presets};
+    use umbrage_shadow::Shadow;
     let map = baked(Kind::Axial, Sampling::Centre);
     let points: Vec<SurfacePoint> = (0..500)
         .map(|i| {

@@ -1,5 +1,5 @@
 use crate::{DepthMap, MapError, rows};
-use glam::{IVec2, Vec3};
+use glam::{DVec3, IVec2, Vec3};
 use std::sync::Arc;
 use umbrage_plane::{TexelRect, View};
 
@@ -92,7 +92,7 @@ impl DeepMap {
         &self.texels.steps[self.texels.starts[index]..self.texels.starts[index + 1]]
     }
 
-    /// Share of the light that passes all surfaces of a texel nearer than `depth`, linear RGB.
+    /// Share of the light that passes all surfaces of a texel nearer than `depth`, linear RGB; all of it for NaN.
     #[inline(always)]
     pub fn transmittance(&self, texel: IVec2, depth: f32) -> Vec3 {
         transmittance(self.steps(texel), depth)
@@ -137,7 +137,7 @@ impl DepthMap for DeepMap {
         (!self.texels.grey).then(|| [one(0), one(1), one(2)])
     }
 
-    /// 16 a surface: its depth and three transmittances.
+    /// 16 a surface: its depth and three transmittances. The table that finds a texel's surfaces, 8 a texel, is left out as everywhere.
     fn bytes(&self) -> usize {
         size_of_val(self.texels.steps.as_slice())
     }
@@ -156,8 +156,9 @@ pub fn compress(steps: &[Step], epsilon: f32) -> Vec<Step> {
         let fits = |end: &usize| level(first.passes, steps[*end].passes, epsilon).is_some();
         let end = (start + 1..steps.len()).take_while(fits).last().unwrap_or(start);
         let (last, wanted) = (steps[end].passes, end + 1 == steps.len());
-        // At the end the light that really is left, if it is near enough to the whole run: what is opaque stays so.
-        let exact = wanted && (first.passes - last).as_dvec3().cmple(glam::DVec3::splat(f64::from(epsilon))).all();
+        // At the end the light that really is left, if it is near enough to the whole run: so what is opaque mostly stays so.
+        let fall = first.passes.as_dvec3() - last.as_dvec3();
+        let exact = wanted && fall.cmple(DVec3::splat(f64::from(epsilon))).all();
         let passes = if exact { last } else { level(first.passes, last, epsilon).unwrap_or(first.passes) };
         let unchanged = kept.last().is_some_and(|before| before.passes == passes);
         if !unchanged {

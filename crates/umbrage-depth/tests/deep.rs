@@ -100,6 +100,35 @@ fn random_texel(key: Key, coloured: bool) -> Vec<Step> {
 }
 
 #[test]
+fn a_fall_of_just_the_bound_is_not_rounded_into_it() {
+    let epsilon = 0.02f32;
+    for texel in 0..200_000 {
+        let low = Key(texel).unit(0, 0) * 0.9;
+        let steps = grey(&[(1.0, low + epsilon), (2.0, low)]);
+        let found = apart(&steps, &compress(&steps, epsilon));
+        assert!(found <= f64::from(epsilon), "{low}: {found}");
+    }
+}
+
+#[test]
+fn what_is_looked_up_sixteen_at_a_time_is_the_nearest_surface() {
+    use fearless_simd::{Level, dispatch, f32x16, prelude::*};
+    let side = 9u32;
+    let texels = (0..side * side).map(|i| random_texel(Key(i), true));
+    let map = DeepMap::new(view(side), 0.0, texels).unwrap();
+    let at = |i: usize| (Key(i as u32).unit(1, 0) * 11.0 - 1.0, Key(i as u32).unit(1, 1) * 11.0 - 1.0);
+    let rect = umbrage_plane::TexelRect::new(IVec2::splat(-1), IVec2::splat(10));
+    let found: [f32; 16] = dispatch!(Level::new(), simd => {
+        let (x, y) = (std::array::from_fn(|i| at(i).0), std::array::from_fn(|i| at(i).1));
+        map.look(simd, rect, f32x16::load_array(simd, x), f32x16::load_array(simd, y)).into()
+    });
+    for (i, found) in found.into_iter().enumerate() {
+        let texel = IVec2::new(at(i).0.floor() as i32, at(i).1.floor() as i32);
+        assert_eq!(found, map.depth(texel), "{texel}");
+    }
+}
+
+#[test]
 fn ext_3_compression_honours_its_bound_on_a_hundred_thousand_texels() {
     let mut steps = [0usize; 2];
     for texel in 0..100_000u32 {

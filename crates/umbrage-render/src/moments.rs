@@ -1,6 +1,6 @@
 use crate::{Soup, bake};
 use umbrage_depth::{DepthMap, DepthRule, Raw, Tiled};
-use umbrage_plane::{Sampling, View};
+use umbrage_plane::{Sampling, View, mix32};
 use umbrage_raster::Cull;
 use umbrage_scene::Scene;
 
@@ -15,7 +15,8 @@ pub fn bake_moments<R: DepthRule>(view: &View, moments: &[&Scene], rule: &R, see
         return bake(view, std::iter::empty(), rule, Cull::None).map;
     };
     let moment = |texel| {
-        let bits = Sampling::Jittered { seed }.offset_256(texel);
+        // Of its own seed: the view's samples may be jittered by the same one, and time must not go with place.
+        let bits = Sampling::Jittered { seed: mix32(seed ^ 0x71E5) }.offset_256(texel);
         (bits.x * 256 + bits.y) as usize * maps.len() / 65_536
     };
     let drawn = Raw::copy_of(first).map_depths(|texel, _| maps[moment(texel)].depth(texel));

@@ -31,8 +31,9 @@ fn side(view: &View, (corners, normals): ([Vec3; 3], [Vec3; 3])) -> Option<DVec3
     let facing = DVec3::from_array(std::array::from_fn(|i| normals[i].dot(toward(eye[i]))));
     let places = eye.map(|at| if view.is_perspective() { at } else { DVec3::new(at.x, at.y, 1.0) });
     let rows = DMat3::from_cols(places[0], places[1], places[2]).transpose();
-    let scale = places.map(|place| place.length()).iter().product::<f64>();
-    (rows.determinant().abs() > 1e-12 * scale).then(|| rows.inverse() * facing)
+    let edges = (eye[1] - eye[0]).length() * (eye[2] - eye[0]).length();
+    let away = if view.is_perspective() { eye[0].length() } else { 1.0 };
+    (rows.determinant().abs() > 1e-9 * edges * away).then(|| rows.inverse() * facing)
 }
 
 /// Where a place of the map looks in eye space: (x/ζ, y/ζ, −1), or (x, y, 1) in an orthographic view.

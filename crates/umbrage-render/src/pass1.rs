@@ -28,7 +28,7 @@ pub fn bake<R: DepthRule>(view: &View, triangles: impl IntoIterator<Item = Trian
 /// (W92-3).
 ///
 /// First depths then are the nearest over the texel. Midpoints need [`Same::Surface`](umbrage_depth::Same::Surface), as one surface has several
-/// depths there.
+/// depths there. Radial depths are taken along the ray of the texel's own sample.
 ///
 /// # Errors
 /// When the samples are more than a view may have: the map's sides times `axis`, 0 included.

@@ -3,7 +3,7 @@
 use glam::{UVec2, Vec2};
 use umbrage_plane::Footprint;
 use umbrage_sample::{
-    Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Tap,
+    Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Tap, Tent,
     Uniform, each_tap, hammersley,
 };
 
@@ -401,4 +401,18 @@ fn r87_11_d_the_middle_is_the_centroid_of_the_area() {
     assert_eq!(all.len(), 1);
     // A trapezium's centroid stands at (a + 2b)/(3(a + b)) of its height from side a: 5/12 of 36 from the wide end.
     assert!((all[0].at.y - 15.0).abs() < 1e-4, "{}", all[0].at);
+}
+
+#[test]
+fn wm94_6_tents_of_any_extent_weigh_something_and_the_nearest_four_bilinearly() {
+    // Half a texel, exactly between two: the one texel in the region lies on its side.
+    for half in [0.0, 0.2, 0.3, 0.5, 0.500_001, 0.6, 1.0, 2.0] {
+        for centre in [8.0, 8.25, 8.5, 8.75, 300.0, 300.5, 4000.0] {
+            let weights: f32 = taps(&Tent, &boxed(centre, centre, half, half), KEY).iter().map(|tap| tap.weight).sum();
+            assert!(weights > 0.0, "half {half} at {centre}");
+        }
+    }
+    let found = taps(&Tent, &boxed(8.25, 8.0, 1.0, 1.0), KEY);
+    let weights: Vec<(f32, f32, f32)> = found.iter().map(|tap| (tap.at.x, tap.at.y, tap.weight)).collect();
+    assert_eq!(weights, [(7.5, 7.5, 0.125), (8.5, 7.5, 0.375), (7.5, 8.5, 0.125), (8.5, 8.5, 0.375)]);
 }

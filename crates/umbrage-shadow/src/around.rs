@@ -1,6 +1,6 @@
-use crate::{Filter, Shadow};
+use crate::{Filter, Shadow, Unshadowed, channel::Channel};
 use fearless_simd::{Level, Simd, dispatch};
-use glam::{DVec3, IVec2};
+use glam::{DVec2, DVec3, IVec2, Vec3};
 use umbrage_depth::DepthMap;
 use umbrage_plane::{DepthRange, Kind, SurfacePoint, TexelRect, Verdict, View, Where};
 use umbrage_sample::Key;
@@ -80,16 +80,16 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
     }
 
     #[inline(always)]
-    fn batch<S: Simd>(&self, simd: S, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
-        let eye = self.maps[0].view().light().truncate();
+    fn batch<S: Simd, N: DepthMap>(&self, simd: S, maps: &[N], at: &[SurfacePoint], key: Key, out: &mut [f32]) {
+        let eye = maps[0].view().light().truncate();
         for (point, fraction) in at.iter().zip(out) {
             let key = key.region(point.region);
             *fraction = match self.evaluate {
                 Evaluate::Own => {
-                    let own = nearest(&self.maps, point.position.as_dvec3() - eye);
-                    self.ask(simd, &Face { maps: &self.maps, own }, point, key)
+                    let own = nearest(maps, point.position.as_dvec3() - eye);
+                    self.ask(simd, &Face { maps, own }, point, key)
                 }
-                Evaluate::Every => self.maps.iter().map(|map| self.within(simd, map, point, key)).fold(0.0, f32::max),
+                Evaluate::Every => maps.iter().map(|map| self.within(simd, map, point, key)).fold(0.0, f32::max),
             };
         }
     }
@@ -104,7 +104,7 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
 
     /// The answer of one view, 0 for a point that it does not see.
     #[inline(always)]
-    fn within<S: Simd>(&self, simd: S, map: &M, point: &SurfacePoint, key: Key) -> f32 {
+    fn within<S: Simd, N: DepthMap>(&self, simd: S, map: &N, point: &SurfacePoint, key: Key) -> f32 {
         match map.view().receiver(point) {
             Ok(receiver) if map.view().locate(receiver.footprint.centre) == Where::Inside => {
                 self.filter.shadow(simd, map, &receiver, key, &mut ())
@@ -116,7 +116,26 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
 
 impl<F: Filter, M: DepthMap> Shadow for Around<F, M> {
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
-        dispatch!(Level::new(), simd => self.batch(simd, at, key, out));
+        dispatch!(Level::new(), simd => self.batch(simd, &self.maps, at, key, out));
+    }
+
+    fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
+        let colours: Vec<_> = self.maps.iter().map(Channel::of).collect();
+        if colours.iter().all(Option::is_none) {
+            return Unshadowed.transmittances(at, key, fractions, out);
+        }
+        let mut channels = [Vec::new(), Vec::new(), Vec::new()];
+        for (map, colours) in self.maps.iter().zip(colours) {
+            let colours = colours.unwrap_or_else(|| [0; 3].map(|_| Channel::Alike(map)));
+            channels.iter_mut().zip(colours).for_each(|(channel, map)| channel.push(map));
+        }
+        let mut dark = vec![0.0; at.len()];
+        for (channel, maps) in channels.iter().enumerate() {
+            dispatch!(Level::new(), simd => self.batch(simd, maps, at, key, &mut dark));
+            for (passes, dark) in out.iter_mut().zip(&dark) {
+                passes[channel] = 1.0 - dark;
+            }
+        }
     }
 }
 
@@ -157,7 +176,12 @@ impl<M: DepthMap> Face<'_, M> {
             Kind::Axial => (view.ahead().dot(direction) / there.ahead().dot(direction)) as f32,
             Kind::Radial | Kind::Screen => 1.0,
         };
-        Some((map, there.eye_to_texel(seen).floor().as_ivec2(), scale))
+        // On the border between two views rounding may name the texel past the last; farther out nothing is seen.
+        let (at, size) = (there.eye_to_texel(seen), there.size());
+        let texel = at.floor().as_ivec2();
+        let border = at.clamp(DVec2::ZERO, size.as_dvec2()).abs_diff_eq(at, 1e-6);
+        let texel = if border { texel.clamp(IVec2::ZERO, size.as_ivec2() - 1) } else { texel };
+        Some((map, texel, scale))
     }
 
     fn inside(&self, texel: IVec2) -> bool {
@@ -166,7 +190,10 @@ impl<M: DepthMap> Face<'_, M> {
 }
 
 impl<M: DepthMap> DepthMap for Face<'_, M> {
-    const DEEP: bool = M::DEEP;
+    #[inline(always)]
+    fn is_deep(&self) -> bool {
+        self.maps[self.own].is_deep()
+    }
 
     #[inline(always)]
     fn view(&self) -> &View {

@@ -34,7 +34,8 @@ pub struct Conditional<P = EveryTexel> {
     pub pattern: P,
     /// Multiplies the region's size.
     pub res_factor: f32,
-    /// Least half-extent of the region after that, in texels.
+    /// Least half-extent of the region after that, in texels. Stochastic maps want 1.5: the samples of three by three texels surround the point,
+    /// those of the nearest four may all lie to one side, and a steep sheet's own all nearer (T-11).
     pub min_size: f32,
     /// The virtual samples. Its bias is that of plain comparison too.
     pub plane: OnPlane,

@@ -11,7 +11,8 @@ pub enum Radius {
     /// To the place in the texel that is read where its depth was taken: the centre, or its own offset in a stochastic map.
     #[default]
     TexelCentre,
-    /// To the tap itself, as the note prints it. Needs a base of τ·tanθ/√2 besides (D-15).
+    /// To the tap itself, as the note prints it. Needs a base of τ·tanθ/√2 besides (D-15), and twice that in a stochastic map, whose
+    /// samples lie up to a whole diagonal of a texel away.
     Nominal,
 }
 
@@ -23,7 +24,8 @@ pub enum Radius {
 /// axial and of screen depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
-    /// Bias at the cone's tip, world units, from 0.
+    /// Bias at the cone's tip, world units, from 0. A receiver exactly on a sample of the map wants the rounding of stored depths, some 10⁻⁶ of
+    /// its distance; elsewhere the slope covers it.
     pub base: f32,
     /// World units of bias for each world unit of distance, from 0. 2 is the note's production value, 63.4°; 1 is 45°.
     pub slope: f32,

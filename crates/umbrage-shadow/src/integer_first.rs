@@ -24,7 +24,7 @@ pub fn behind(receiver: f32, stored: f32, unit: f32) -> (bool, bool) {
 /// (Woo 1992; W92-5, W92-7). Meant for midpoint maps.
 ///
 /// Answers as [`Pcf`](crate::Pcf) with a bias of 0 does, bit for bit; a [`Probe`] counts how often whole units settled it. On today's machines it
-/// saves nothing.
+/// saves nothing. A deep map answers by its nearest surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IntegerFirst<P = Jittered> {
     /// Where to look.

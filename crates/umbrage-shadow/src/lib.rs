@@ -28,6 +28,7 @@
 
 mod around;
 pub mod as_printed;
+mod channel;
 mod conditional;
 mod cone;
 mod depth;

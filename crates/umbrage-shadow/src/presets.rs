@@ -48,5 +48,14 @@ pub fn burley() -> Soft {
 pub fn fernando(bias: Bias) -> Soft<Biased> {
     let Soft { softness, search, blur, radius_gamma, opacity, rescue, .. } = burley();
     let search = Disc { density: Density::Uniform, ..search };
-    Soft { softness, search, blur, falloff: Falloff::Flat, depth: Biased::constant(bias), radius_gamma, opacity, rescue }
+    Soft {
+        softness,
+        search,
+        blur,
+        falloff: Falloff::Flat,
+        depth: Biased::constant(bias),
+        radius_gamma,
+        opacity,
+        rescue,
+    }
 }

@@ -1,12 +1,12 @@
 use crate::share::share;
-use crate::{Cone, Filter, Probe, ReceiverDepth};
+use crate::{Biased, Cone, Filter, Probe, ReceiverDepth};
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec2;
 use umbrage_depth::DepthMap;
-use umbrage_plane::{Footprint, Kind, Receiver, TexelRect, View};
+use umbrage_plane::{Bias, Footprint, Kind, Receiver, TexelRect, View};
 use umbrage_sample::{Density, Disc, Key, Pattern};
 
-/// A radius on the map. The unit is part of the type.
+/// A radius on the map, from 0; +∞ is more than the map has. The unit is part of the type.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Extent {
     /// Texels.
@@ -21,11 +21,13 @@ impl Extent {
     /// In texels along both axes.
     #[inline(always)]
     fn texels(self, view: &View, receiver: &Receiver) -> Vec2 {
-        match self {
+        let texels = match self {
             Self::Texels(radius) => Vec2::splat(radius),
             Self::Share(share) => view.size().as_vec2() * share,
             Self::World(radius) => Vec2::splat(radius) / receiver.texel_world,
-        }
+        };
+        // Finite, so that differences of radii are.
+        texels.min(Vec2::splat(f32::MAX))
     }
 }
 
@@ -73,7 +75,8 @@ impl Softness {
                 let scale = if view.is_perspective() { 1.0 / mean } else { 1.0 };
                 let world = radius * (distance - mean).max(0.0) * scale;
                 // At contact still as wide as bilinear look-up: the texel itself must not show.
-                (Vec2::splat(if world.is_finite() { world } else { f32::MAX }) / receiver.texel_world).max(Vec2::splat(0.5))
+                (Vec2::splat(if world.is_finite() { world } else { f32::MAX }) / receiver.texel_world)
+                    .max(Vec2::splat(0.5))
             }
         }
     }
@@ -164,7 +167,7 @@ impl Mean {
 ///
 /// `depth` is compared in both passes: [`Cone`] is Burley's; a tangent plane or a constant bias does as well. Distances are measured from the
 /// light: axial or Euclidean as the map stores them, and from the plane of the view's eye for directional lights (T-12). Texels outside the map are
-/// never occluders. The blur is never narrower than the receiver's own region, and no wider than a quarter of the map to each side.
+/// never occluders; where the view's rules say dark, it is dark whatever the opacity and whether an occluder was found or not (W92-6). The blur is never narrower than the receiver's own region, and no wider than a quarter of the map to each side.
 ///
 /// Departures from the printed listing, by the errata of [`as_printed`](crate::as_printed): the bias moves toward the light (E-B1), the blur knows its
 /// point (E-B2), *no occluder* is not a depth of 0 (E-B3), the factor is clamped (E-B4), slope and radius are in world units (E-B5, E-B6).
@@ -209,7 +212,14 @@ impl<D: ReceiverDepth> Soft<D> {
     /// The weighted mean distance of the occluders around a receiver, world units from the light; `None` without one
     /// (`sampleDepth` of the note; B06-4).
     #[inline(always)]
-    fn occluders<S: Simd, M: DepthMap>(&self, simd: S, map: &M, receiver: &Receiver, region: &Footprint, key: Key) -> Option<f32> {
+    fn occluders<S: Simd, M: DepthMap>(
+        &self,
+        simd: S,
+        map: &M,
+        receiver: &Receiver,
+        region: &Footprint,
+        key: Key,
+    ) -> Option<f32> {
         let view = map.view();
         let rect = TexelRect::around(region.centre, region.half);
         let mut mean = Mean::default();
@@ -218,7 +228,8 @@ impl<D: ReceiverDepth> Soft<D> {
             let stored = map.look(simd, rect, taps.x, taps.y);
             let nearer = compared.simd_gt(stored).to_bitmask() as u32 & taps.mask;
             for i in (0..16).filter(|i| nearer >> i & 1 == 1) {
-                let from = (Vec2::new(taps.x[i], taps.y[i]) - region.centre) / region.half.max(Vec2::splat(f32::MIN_POSITIVE));
+                let from =
+                    (Vec2::new(taps.x[i], taps.y[i]) - region.centre) / region.half.max(Vec2::splat(f32::MIN_POSITIVE));
                 mean.add(distance(view, stored[i]), self.falloff.weight(from.length()));
             }
         });
@@ -251,15 +262,20 @@ impl<D: ReceiverDepth> Filter for Soft<D> {
         let at_least = |radius: Vec2| Footprint::boxed(centre, radius.max(half).min(most));
         let own = distance(view, receiver.depth) as f32;
         let search = at_least(self.softness.search(view, receiver, own));
-        probe.looked(self.search.num_samples);
+        probe.looked(self.search.num_samples.max(1));
         let found = self.occluders(simd, map, receiver, &search, key);
-        // Without an occluder all is lit, unless the edge of the map or the cone is near: what lies beyond may be dark.
-        if found.is_none() && !self.rescue && view.holds(search.centre, search.half) {
-            return 0.0;
-        }
         let mean = found.unwrap_or(own);
         let region = at_least(self.softness.blur(view, receiver, mean, own, self.radius_gamma));
+        // What the rules alone darken, in front of everything that is stored: no occluder's opacity thins it.
+        let beyond = if view.holds(region.centre, region.half) {
+            0.0
+        } else {
+            share(simd, map, receiver, &region, (&self.blur, &Biased::constant(Bias::Map(f32::INFINITY))), key, &mut ())
+        };
+        if found.is_none() && !self.rescue {
+            return beyond;
+        }
         let dark = share(simd, map, receiver, &region, (&self.blur, &self.depth), key, probe);
-        dark * self.opacity.at(own - mean)
+        beyond + (dark - beyond) * self.opacity.at(own - mean)
     }
 }

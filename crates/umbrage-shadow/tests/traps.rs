@@ -34,6 +34,32 @@ fn ask<F: Filter>(filter: &F, map: &impl DepthMap, receiver: &Receiver, key: Key
 }
 
 #[test]
+fn t_3_the_background_around_the_finite_box_is_lit_inside_a_spot_s_cone() {
+    // One caster in a corner of the cone: the box around it is no rim of light (W92-6), whatever the storage and the cull.
+    let view = lamp(64).with_rules(Rules::SPOT).with_cone(Some(0.9)).unwrap();
+    let caster = |texel: IVec2| texel.cmpge(IVec2::splat(20)).all() && texel.cmplt(IVec2::splat(24)).all();
+    let depths = TexelRect::of_size(view.size()).texels().map(|texel| if caster(texel) { 4.0 } else { f32::INFINITY });
+    let raw = Raw::new(view, depths.collect()).unwrap();
+    let boxed = Bbox::from(&raw);
+    for cull in [true, false] {
+        let filter = Pcf { cull, ..presets::woo92() };
+        for step in 0..400 {
+            let at = Vec3::new(KEY.signed(step, 0) * 12.0, -10.0, KEY.signed(step, 1) * 12.0);
+            let point = SurfacePoint { region: step, ..SurfacePoint::at(at, Vec3::Y) };
+            let texel = (view.receiver(&point).unwrap().footprint.centre).floor().as_ivec2();
+            let beyond = Vec2::new(at.x, at.z).length() > 9.0 || at.abs().max_element() > 10.0;
+            let wanted = if beyond || caster(texel) { 1.0 } else { 0.0 };
+            for found in [
+                ShadowMap { filter, map: raw.clone() }.fraction(&point, KEY),
+                ShadowMap { filter, map: boxed.clone() }.fraction(&point, KEY),
+            ] {
+                assert_eq!(found, wanted, "{at}");
+            }
+        }
+    }
+}
+
+#[test]
 fn t_5_an_empty_box_does_not_light_what_lies_outside_the_cone() {
     // Nothing in the map at all: the cull would say lit, the cone says dark.
     let view = lamp(64).with_rules(Rules::SPOT).with_cone(Some(0.5)).unwrap();

@@ -4,6 +4,7 @@ mod all_round;
 mod bump;
 mod curves;
 mod faults;
+mod methods;
 mod paging;
 mod reeves_idea;
 mod reeves_listing;
@@ -79,5 +80,8 @@ pub const FIGURES: &[&Figure] = &[
     &curves::ACNE,
     &curves::NOISE,
     &faults::FAULTS,
+    &methods::SIZES,
+    &methods::GRAZING,
+    &methods::PRESETS,
     &paging::PAGING,
 ];

@@ -52,9 +52,14 @@ impl Set {
 
     /// The picture with light 0's shadow by a recipe, over the map that the recipe wants.
     pub fn by(&self, cx: &Context, recipe: &str, frame: &Frame) -> anyhow::Result<Picture> {
+        Ok(self.draw(cx, &*self.shadow(cx, recipe)?, frame))
+    }
+
+    /// Light 0's shadow by a recipe, over the map that the recipe wants.
+    pub fn shadow(&self, cx: &Context, recipe: &str) -> anyhow::Result<Box<dyn Shadow>> {
         let recipe: Recipe = recipe.parse()?;
         let map = recipe.bake(&self.scene, &self.scene.lights[0].view);
-        Ok(self.draw(cx, &*recipe.bind(map, cx.storage), frame))
+        Ok(recipe.bind(map, cx.storage))
     }
 
     /// The picture without any shadow.

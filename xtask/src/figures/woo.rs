@@ -204,7 +204,7 @@ fn thin(cx: &Context) -> anyhow::Result<(Picture, f64, f64)> {
     const SLAB: u32 = 0;
     let set = Set::new(gallery::thin_slab(), cx.pick(512, 256), 256);
     let points = set.truth_points(cx, &Frame::CENTRES);
-    let (new, old) = (set.by(cx, NEW, &Frame::CENTRES)?, set.by(cx, "reeves87,bias=3t..4t", &Frame::CENTRES)?);
+    let (new, old) = (set.by(cx, NEW, &Frame::CENTRES)?, set.by(cx, "reeves87,bias=3..4t", &Frame::CENTRES)?);
     let on_slab = |picture: &Picture| acne(picture, &points, border(cx), |id| id == SLAB);
     let found = (on_slab(&new), on_slab(&old));
     Ok((new, found.0, found.1))

@@ -148,7 +148,7 @@ impl FromStr for Recipe {
             "reeves87-recommended" => (Rule::First, Method::Reeves(Reeves::new(presets::reeves87_recommended()))),
             "woo92" => (Rule::Midpoint, Method::Reeves(Reeves::new(presets::woo92()))),
             "wang-molnar94" => (Rule::BackFace, Method::WangMolnar(WangMolnar::default())),
-            "burley" => (Rule::First, Method::Burley(Burley::burley())),
+            "burley" => (Rule::First, Method::Burley(Burley::cone())),
             "fernando" => (Rule::First, Method::Burley(Burley::fernando())),
             "ordinary" => {
                 let ordinary = Ordinary { pattern: EveryTexel, bias: Bias::ZERO, res_factor: 1.0 };
@@ -174,8 +174,8 @@ impl Recipe {
         self.bake_moments(&[scene], view)
     }
 
-    /// The same over an exposure, `moments` being the scene at evenly spread times: deep maps hold the mean of them (EXT-2), maps of one surface
-    /// see the first. An empty map of none.
+    /// The same over an exposure, `moments` being the scene at evenly spread times (EXT-2): deep maps hold the mean of them, of maps of one
+    /// surface each texel sees one of them. An empty map of none.
     pub fn bake_moments(&self, moments: &[&Scene], view: &View) -> Map {
         self.stored.bake(moments, view)
     }

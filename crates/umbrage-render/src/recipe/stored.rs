@@ -2,8 +2,8 @@
 
 use super::values::{count, number, one_of, positive, share};
 use super::{RecipeError, Set};
-use crate::{Deep, Map, Soup, bake, bake_by_normals, bake_deep};
-use umbrage_depth::{BackFace, First, Midpoint, Second};
+use crate::{Deep, Map, Soup, bake, bake_by_normals, bake_deep, bake_moments};
+use umbrage_depth::{BackFace, DepthRule, First, Midpoint, Second};
 use umbrage_plane::View;
 use umbrage_raster::Cull;
 use umbrage_scene::Scene;
@@ -61,23 +61,26 @@ impl Stored {
         Ok(true)
     }
 
-    /// `moments` are the scene at evenly spread times; rules that keep one surface see the first of them.
+    /// `moments` are the scene at evenly spread times: deep maps hold their mean, and of rules that keep one surface each texel sees one of them.
     pub fn bake(&self, moments: &[&Scene], view: &View) -> Map {
-        if self.rule == Rule::Deep {
-            return bake_deep(view, moments, &self.deep).into();
-        }
-        let Some(scene) = moments.first() else {
-            return bake(view, std::iter::empty(), &First, Cull::None).map.into();
-        };
-        let soup = Soup::casters(scene, view);
-        let triangles = soup.triangles();
         match self.rule {
-            Rule::First | Rule::Deep => bake(view, triangles, &First, Cull::None).map,
-            Rule::Second => bake(view, triangles, &Second, Cull::None).map,
-            Rule::BackFace => bake(view, triangles, &BackFace, Cull::Front).map,
-            Rule::Normals => bake_by_normals(view, &soup, &BackFace).map,
-            Rule::Midpoint => bake(view, triangles, &self.midpoint, Cull::None).map,
+            Rule::Deep => bake_deep(view, moments, &self.deep).into(),
+            Rule::First => baked(moments, view, &First, Cull::None),
+            Rule::Second => baked(moments, view, &Second, Cull::None),
+            Rule::BackFace => baked(moments, view, &BackFace, Cull::Front),
+            Rule::Midpoint => baked(moments, view, &self.midpoint, Cull::None),
+            Rule::Normals => match moments {
+                [scene] => bake_by_normals(view, &Soup::casters(scene, view), &BackFace).map.into(),
+                _ => baked(moments, view, &BackFace, Cull::Front),
+            },
         }
-        .into()
     }
+}
+
+fn baked<R: DepthRule>(moments: &[&Scene], view: &View, rule: &R, cull: Cull) -> Map {
+    match moments {
+        [scene] => bake(view, Soup::casters(scene, view).triangles(), rule, cull).map,
+        _ => bake_moments(view, moments, rule, 0),
+    }
+    .into()
 }

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use twins::Twin;
 use umbrage_plane::Footprint;
 use umbrage_sample::{
-    Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Tap,
+    Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Tap, Tent,
     Uniform, each_tap, hammersley,
 };
 
@@ -17,6 +17,7 @@ macro_rules! every_pattern {
     ($law:ident $(, $more:expr)*) => {
         $law("centre", &Centre $(, $more)*);
         $law("every texel", &EveryTexel $(, $more)*);
+        $law("tent", &Tent $(, $more)*);
         $law("uniform", &Uniform::default() $(, $more)*);
         $law("uniform 37", &Uniform { num_samples: 37 } $(, $more)*);
         $law("gaussian", &Gaussian::default() $(, $more)*);
@@ -252,6 +253,7 @@ fn taps_are_centred_on_the_region() {
     };
     check("centre", mean(&Centre, &region, 1));
     check("every texel", mean(&EveryTexel, &region, 1));
+    check("tent", mean(&Tent, &region, 1));
     check("uniform", mean(&Uniform::default(), &region, 4000));
     check("gaussian", mean(&Gaussian::default(), &region, 4000));
     check("jittered", mean(&Jittered::default(), &region, 4000));

@@ -3,7 +3,8 @@
 use glam::Vec2;
 use umbrage_plane::Footprint;
 use umbrage_sample::{
-    Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Tap, Uniform,
+    Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Tap, Tent,
+    Uniform,
 };
 
 /// A pattern that has a naive twin.
@@ -40,6 +41,20 @@ impl Twin for EveryTexel {
         let (columns, rows) = (along(low.x, high.x, region.centre.x), along(low.y, high.y, region.centre.y));
         let positions = rows.iter().flat_map(|&y| columns.iter().map(move |&x| Vec2::new(x, y)));
         positions.zip(0..).map(|(at, index)| tap(region, key, index, at)).collect()
+    }
+}
+
+impl Twin for Tent {
+    fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)> {
+        let side = |at: f32, centre: f32, half: f32| {
+            if half > 0.5 { (-((at - centre).abs() / half) + 1.0).max(0.0) } else { 1.0 }
+        };
+        let weighed = |(index, tap): (u32, Tap)| {
+            let weight =
+                side(tap.at.x, region.centre.x, region.half.x) * side(tap.at.y, region.centre.y, region.half.y);
+            (index, Tap { weight, ..tap })
+        };
+        EveryTexel.naive(region, key).into_iter().map(weighed).collect()
     }
 }
 

@@ -57,7 +57,12 @@ pub struct Sample {
 }
 
 /// `sampleDepth`: the weighted mean depth of the occluders, and 0 for none, which a depth may be as well (E-B3).
-pub fn sample_depth(listing: &BurleyListing, depth: f32, search: f32, samples: impl IntoIterator<Item = Sample>) -> f32 {
+pub fn sample_depth(
+    listing: &BurleyListing,
+    depth: f32,
+    search: f32,
+    samples: impl IntoIterator<Item = Sample>,
+) -> f32 {
     let (mut sum, mut total) = (0.0, 0.0);
     for sample in samples.into_iter().filter(|sample| sample.depth < listing.compared(depth, sample.radius)) {
         let weight = 1.0 - 0.9 * (sample.radius / search);

@@ -46,6 +46,9 @@ pub struct Listing {
     pub e_r4_noop: bool,
     /// Meaning of `sres`, `tres`.
     pub footprint: FootprintConvention,
+    /// Woo's archived version of 1992: what lies outside the rectangle is in shadow, and nothing is asked about z < 0. Right for the rectangle
+    /// of a spot light's cone, wrong for that of the finite depths (W92-6, W92-10, T-3).
+    pub gg_bbox_rule: bool,
 }
 
 impl Default for Listing {
@@ -61,6 +64,7 @@ impl Default for Listing {
             rand: RandRange::Unit,
             e_r4_noop: false,
             footprint: FootprintConvention::HalfExtent,
+            gg_bbox_rule: false,
         }
     }
 }
@@ -120,7 +124,8 @@ pub fn sample_shadow<M: DepthMap>(
     [sres, tres]: [f32; 2],
     mut rand: impl FnMut() -> f32,
 ) -> f32 {
-    if z < 0.0 {
+    let outside = f32::from(u8::from(listing.gg_bbox_rule));
+    if z < 0.0 && !listing.gg_bbox_rule {
         return 0.0;
     }
     let mapres = map.view().size().x as f32;
@@ -134,13 +139,13 @@ pub fn sample_shadow<M: DepthMap>(
     let (lu, hu) = ((s - sres).floor() as i32, (s + sres).ceil() as i32);
     let (lv, hv) = ((t - tres).floor() as i32, (t + tres).ceil() as i32);
     if lu > bbox.umax || hu < bbox.umin || lv > bbox.vmax || hv < bbox.vmin {
-        return 0.0;
+        return outside;
     }
     let Counts { ns, nt, .. } = counts(sres, tres, listing.num_samples, listing.min_samples);
     let (ds, dt) = (2.0 * sres / ns as f32, 2.0 * tres / nt as f32);
     let (js, jt) = (ds * 0.5, dt * 0.5);
     let mut random = || if listing.rand == RandRange::Unit { rand() } else { rand() * 2.0 - 1.0 };
-    let mut inshadow = 0;
+    let mut inshadow = 0u32;
     let mut at_s = s - sres + js;
     for _ in 0..ns {
         let mut at_t = t - tres + jt;
@@ -149,9 +154,8 @@ pub fn sample_shadow<M: DepthMap>(
             let iv = (at_t + random() * jt) as i32;
             let bias = random() * (listing.bias1 - listing.bias0) + listing.bias0;
             let stored = iu >= bbox.umin && iu <= bbox.umax && iv >= bbox.vmin && iv <= bbox.vmax;
-            if stored && z > map.depth(IVec2::new(iu, iv)) + bias {
-                inshadow += 1;
-            }
+            let dark = if stored { z > map.depth(IVec2::new(iu, iv)) + bias } else { listing.gg_bbox_rule };
+            inshadow += u32::from(dark);
             at_t += dt;
         }
         at_s += ds;
