@@ -22,11 +22,13 @@ mod softness;
 mod sphere_plane;
 mod spheres;
 mod studio;
+mod wang_molnar_bias;
 mod wang_molnar_ideas;
 mod wang_molnar_listing;
 mod wang_molnar_others;
 mod wang_molnar_planes;
 mod wang_molnar_second;
+mod wang_molnar_spaces;
 mod williams_scenes;
 mod williams_shadow;
 mod williams_views;
@@ -75,12 +77,12 @@ pub const FIGURES: &[&Figure] = &[
     &woo::COST,
     &wang_molnar_ideas::F1,
     &wang_molnar_ideas::F2,
-    &wang_molnar_ideas::F3,
+    &wang_molnar_bias::F3,
     &wang_molnar_second::F5,
     &wang_molnar_second::F6,
     &wang_molnar_planes::F8,
     &wang_molnar_listing::F10,
-    &wang_molnar_planes::F11,
+    &wang_molnar_spaces::F11,
     &wang_molnar_others::TAGS,
     &wang_molnar_others::PCF_BIAS,
     &burley_bias::I75,

@@ -1,5 +1,6 @@
 //! Scenes that are slices: solids pulled straight along z, with light and camera in the plane z = 0.
 
+use super::studio::points_of;
 use crate::diagram::{Diagram, Ink, Mark};
 use crate::figure::Context;
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
@@ -7,8 +8,9 @@ use umbrage_depth::{DepthMap, DepthRule, First, Tiled};
 use umbrage_plane::{View, ViewError};
 use umbrage_raster::{Cull, Triangle};
 use umbrage_render::{Frame, Picture, Soup, bake, picture};
+use umbrage_sample::Key;
 use umbrage_scene::{Light, Material, Mesh, Object, Scene};
-use umbrage_shadow::Shadow;
+use umbrage_shadow::{Shadow, Unshadowed};
 
 /// How far the solids reach to either side of the slice.
 const REACH: f32 = 500.0;
@@ -56,9 +58,10 @@ pub fn lamp(eye: [f64; 2], target: [f64; 2], degrees: f64, columns: u32) -> Resu
     View::perspective(world(eye.into()), world(target.into()), DVec3::Z, degrees.to_radians(), 1.0, 600.0, size)
 }
 
-/// A camera of one row in the slice.
+/// A camera of one row in the slice, its pixels square.
 pub fn eye(at: [f64; 2], target: [f64; 2], degrees: f64, columns: u32) -> Result<View, ViewError> {
-    lamp(at, target, degrees, columns)?.with_size(UVec2::new(columns, 1))
+    let row = 2.0 * ((0.5 * degrees.to_radians()).tan() / f64::from(columns)).atan();
+    View::perspective(world(at.into()), world(target.into()), DVec3::Z, row, 1.0, 600.0, UVec2::new(columns, 1))
 }
 
 /// A solid of an outline.
@@ -87,13 +90,13 @@ fn pulled(outline: &[DVec2]) -> Mesh {
 
 impl Slice {
     /// Object ids are the outlines' places.
-    pub fn new(name: &str, outlines: Vec<Vec<DVec2>>, light: View, camera: View) -> anyhow::Result<Self> {
+    pub fn new(name: &str, outlines: Vec<Vec<DVec2>>, light: &View, camera: &View) -> anyhow::Result<Self> {
         let material = Material::matt(Vec3::splat(0.6));
         let objects = outlines.iter().map(|outline| Object::solid("solid", pulled(outline), material)).collect();
         let mut lamp = Light::point("light", DVec3::Y, DVec3::ZERO, 60.0, 1.0, 2.0, UVec2::ONE)?;
-        lamp.view = light;
+        lamp.view = *light;
         let (ambient, background) = (Vec3::splat(0.2), Vec3::ZERO);
-        let scene = Scene { name: name.into(), objects, lights: vec![lamp], ambient, background, camera };
+        let scene = Scene { name: name.into(), objects, lights: vec![lamp], ambient, background, camera: *camera };
         Ok(Self { scene, outlines })
     }
 
@@ -107,9 +110,16 @@ impl Slice {
         bake(self.light(), Soup::casters(&self.scene, self.light()).triangles(), rule, Cull::None).map
     }
 
-    /// The camera's samples with their answers.
+    /// The camera's samples with their answers, each asked as a point without extent.
     pub fn seen(&self, cx: &Context, shadow: &dyn Shadow) -> Picture {
-        picture(&self.scene, &[shadow], &Frame { seed: cx.seed, ..Frame::CENTRES })
+        let mut seen = picture(&self.scene, &[&Unshadowed], &Frame { seed: cx.seed, ..Frame::CENTRES });
+        let points = points_of(&seen);
+        let mut answers = vec![0.0; points.len()];
+        shadow.fractions(&points, Key::new(cx.seed, 0, 0), &mut answers);
+        for (point, answer) in points.iter().zip(answers) {
+            seen.shadow[0][point.region as usize] = answer;
+        }
+        seen
     }
 
     /// The outlines as areas.

@@ -26,8 +26,8 @@ fn sun() -> anyhow::Result<View> {
     Ok(View::orthographic(DVec3::Y * 10.0, DVec3::ZERO, DVec3::NEG_Z, 8.0, 0.0, 50.0, UVec2::splat(16))?)
 }
 
-fn map(view: View, depth: impl Fn(IVec2) -> f32) -> anyhow::Result<Raw> {
-    Ok(Raw::new(view, TexelRect::of_size(view.size()).texels().map(depth).collect())?)
+fn map(view: &View, depth: impl Fn(IVec2) -> f32) -> anyhow::Result<Raw> {
+    Ok(Raw::new(*view, TexelRect::of_size(view.size()).texels().map(depth).collect())?)
 }
 
 /// A receiver at a texel position whose plane's depth grows by `gradient` from texel to texel.
@@ -80,7 +80,7 @@ const VIRTUAL: [f32; 4] = [4.9, 5.0, 8.9, 9.0];
 fn v55() -> anyhow::Result<(Raw, Receiver)> {
     let view = sun()?;
     let seen = tilted(&view, [8.0, 7.7625], 6.0, [0.1, 4.0])?;
-    Ok((map(view, |texel| if texel.y < 8 { 5.0 } else { 9.0 })?, seen))
+    Ok((map(&view, |texel| if texel.y < 8 { 5.0 } else { 9.0 })?, seen))
 }
 
 fn listing(cx: &Context) -> anyhow::Result<Made> {
@@ -163,14 +163,14 @@ fn errata() -> anyhow::Result<Table> {
     let rule = presets::wang_molnar94();
     let lit = |value: f32| short(f64::from(value), 3);
     // An edge beside a level receiver, for neighbourhoods.
-    let edge = map(view, |texel| if texel.x < 8 { 5.0 } else { 9.0 })?;
+    let edge = map(&view, |texel| if texel.x < 8 { 5.0 } else { 9.0 })?;
     let level = tilted(&view, [8.2, 8.2], 6.0, [0.0, 0.0])?;
     let boxed = Conditional { res_factor: 0.0, min_size: 1.5, ..rule };
     // Half of the nearest texels are outside.
-    let rim = map(view.with_rules(Rules::OPEN), |_| 5.0)?;
+    let rim = map(&view.with_rules(Rules::OPEN), |_| 5.0)?;
     let at_rim = tilted(&view, [16.0, 8.0], 6.0, [0.0, 0.0])?;
     // A curved sheet's point lies half a unit behind what is stored of it.
-    let bent = map(view, |_| 5.5)?;
+    let bent = map(&view, |_| 5.5)?;
     let biased = Conditional { plane: OnPlane { bias: Bias::World(0.6), ..rule.plane }, ..rule };
     let equal = [6.0f32; 4];
     let prose = equal.iter().filter(|&&second| 6.0 < second).count() as f32 / 4.0;
@@ -201,7 +201,7 @@ fn errata() -> anyhow::Result<Table> {
             "E-M4",
             "equality in the first test: the text says shadow, the listing lit",
             format!("{} or {}", lit(prose), lit(percent_illumination(6.0, &equal, &equal, Division::Float))),
-            lit(corrected(rule, &map(view, |_| 6.0)?, &level)),
+            lit(corrected(rule, &map(&view, |_| 6.0)?, &level)),
         ),
         row(
             "E-M5",
@@ -254,6 +254,6 @@ fn edge_on() -> anyhow::Result<(String, f32)> {
     let to_light = view.with_kind(Kind::Screen).world_to_screen();
     let plane = (to_light.inverse().transpose() * DVec3::X.extend(0.0)).as_vec4();
     let depth = -(plane.x / plane.z) * 0.1 - (plane.y / plane.z) * 0.1 - plane.w / plane.z;
-    let half = map(view, |texel| if texel.x < 32 { 5.0 } else { f32::INFINITY })?;
+    let half = map(&view, |texel| if texel.x < 32 { 5.0 } else { f32::INFINITY })?;
     Ok((short(f64::from(depth), 3), corrected(presets::wang_molnar94(), &half, &seen)))
 }

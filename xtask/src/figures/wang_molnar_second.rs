@@ -12,7 +12,7 @@ use umbrage_plane::{Decode, Facet, SurfacePoint};
 use umbrage_raster::Cull;
 use umbrage_render::{Frame, NOTHING, Picture, Soup, bake, bind};
 use umbrage_scene::{Light, Material, Mesh, Object, Scene, gallery};
-use umbrage_shadow::presets;
+use umbrage_shadow::{Conditional, presets};
 
 pub const F5: Figure = Figure {
     id: "WM94-F5",
@@ -35,8 +35,8 @@ fn muddle() -> anyhow::Result<Slice> {
             rectangle([12.0, 0.0], [30.0, 6.5]),
             disc([42.0, 4.5], 4.5),
         ],
-        slice::sun(DVec2::new(-0.55, 1.0), DVec2::new(0.0, 8.0), 60.0, 1200)?,
-        slice::eye([74.0, 58.0], [-2.0, 6.0], 62.0, 1600)?,
+        &slice::sun(DVec2::new(-0.55, 1.0), DVec2::new(0.0, 8.0), 60.0, 1200)?,
+        &slice::eye([74.0, 58.0], [-2.0, 6.0], 62.0, 1600)?,
     )
 }
 
@@ -60,7 +60,7 @@ fn union_scene() -> anyhow::Result<Scene> {
     let grey = Material::matt(Vec3::new(0.54, 0.52, 0.48));
     let blue = Material::plastic(Vec3::new(0.12, 0.26, 0.66));
     let things = [
-        ("floor", Mesh::cuboid(Vec3::new(-60.0, -10.0, -60.0), Vec3::new(60.0, 0.0, 60.0)), grey),
+        ("floor", Mesh::cuboid(Vec3::new(-60.0, -10.0, -64.0), Vec3::new(60.0, 0.0, 64.0)), grey),
         ("box", Mesh::cuboid(Vec3::new(-30.0, -3.0, -12.0), Vec3::new(-8.0, 18.0, 10.0)), red),
         ("ball in the box", Mesh::sphere(Vec3::new(-9.0, 17.0, 8.0), 10.0, 96), blue),
         ("post through the box", Mesh::cylinder(Vec3::new(-38.0, 9.0, -2.0), Vec3::new(4.0, 13.0, -6.0), 3.5, 64), red),
@@ -69,7 +69,7 @@ fn union_scene() -> anyhow::Result<Scene> {
     ];
     let objects = things.into_iter().map(|(name, mesh, material)| Object::solid(name, mesh, material)).collect();
     let lamp =
-        Light::point("lamp", DVec3::new(-80.0, 95.0, 60.0), DVec3::new(0.0, 4.0, 0.0), 46.0, 40.0, 280.0, UVec2::ONE)?;
+        Light::point("lamp", DVec3::new(-80.0, 95.0, 60.0), DVec3::new(0.0, 4.0, 0.0), 54.0, 40.0, 280.0, UVec2::ONE)?;
     let camera = umbrage_plane::View::perspective(
         DVec3::new(30.0, 62.0, 112.0),
         DVec3::new(0.0, 5.0, 4.0),
@@ -81,6 +81,14 @@ fn union_scene() -> anyhow::Result<Scene> {
     )?;
     let (ambient, background) = (Vec3::splat(0.15), Vec3::new(0.02, 0.02, 0.03));
     Ok(Scene { name: "union".into(), objects, lights: vec![lamp], ambient, background, camera })
+}
+
+/// Pixels within three of one that shows another object: where solids meet, too, a texel keeps what its neighbour does not.
+fn meetings(picture: &Picture) -> Vec<bool> {
+    let width = picture.size.x as usize;
+    let other = |i: usize, j: usize| picture.object.get(j).is_some_and(|&object| object != picture.object[i]);
+    let borders: Vec<bool> = (0..picture.object.len()).map(|i| other(i, i + 1) || other(i, i + width)).collect();
+    metrics::grown(&borders, width, 3)
 }
 
 fn second(cx: &Context) -> anyhow::Result<Made> {
@@ -101,21 +109,20 @@ fn second(cx: &Context) -> anyhow::Result<Made> {
     let differ: Vec<f32> =
         raw[0].depths().iter().zip(raw[1].depths()).map(|(a, b)| f32::from(u8::from(a != b))).collect();
     let by = maps.each_ref().map(|map| {
-        let shadow = bind(presets::wang_molnar94(), map, cx.storage);
+        let shadow = bind(Conditional { dark_backs: true, ..presets::wang_molnar94() }, map, cx.storage);
         set.draw(cx, &*shadow, &Frame::CENTRES)
     });
     let points = set.truth_points(cx, &Frame::CENTRES);
-    let border = cx.pick(3, 2);
-    let away: Vec<bool> = {
-        let lit = metrics::lit_mask(shadow_grid(&points), &points.facing[0], border, 0.02);
-        let dark = metrics::dark_mask(shadow_grid(&points), &points.facing[0], border, 0.02);
-        lit.iter().zip(&dark).zip(of(&points, |_| true)).map(|((lit, dark), whole)| (*lit || *dark) && whole).collect()
-    };
+    let far = metrics::silhouette_distance(&light, &set.scene, &points.position, 8.0);
     let unlike =
         |mask: &[bool]| (0..mask.len()).filter(|&i| mask[i] && by[0].shadow[0][i] != by[1].shadow[0][i]).count();
     let facing: Vec<bool> = points.facing[0].iter().map(|&facing| facing > 0.0).collect();
+    let away: Vec<bool> = far.iter().zip(&facing).map(|(&texels, &facing)| facing && texels > 2.0).collect();
+    let meet = meetings(&points);
+    let away: Vec<bool> = away.iter().zip(&meet).map(|(&away, &meet)| away && !meet).collect();
     let count = |mask: &[bool]| mask.iter().filter(|inside| **inside).count() as f64;
     let panels = vec![
+        Panel::rgb("full", "Solids that reach into each other", by[0].size, by[0].colour.clone()),
         shadow_panel("two-buffers", "Two buffers", &by[0]).with("map", set.map.view().size().x).against("truth"),
         shadow_panel("back-faces", "Back faces", &by[1]).with("map", set.map.view().size().x).against("truth"),
         truth_panel(&points),
@@ -131,10 +138,10 @@ fn second(cx: &Context) -> anyhow::Result<Made> {
                 .full_size(cx),
             Measure::exactly("points of the union's boundary answered differently", unlike(&away) as f64, "points", 0.0),
             Measure::at_least("points asked", count(&away), "points", 1e4).full_size(cx),
-            Measure::info("answered differently, beside shadow edges too", unlike(&facing) as f64, "points"),
+            Measure::info("answered differently, beside silhouettes and meetings too", unlike(&facing) as f64, "points"),
             Measure::info("of points that face the light", count(&facing), "points"),
         ],
-        note: "What turns away from the light is left out: its own shading darkens it, whatever the map says. Points lie at least 3 pixels from the edge of a shadow."
+        note: "What turns away from the light is left out: its own shading darkens it, whatever the map says. Points lie more than two texels of the map from any silhouette that the light sees, and three pixels from where solids meet: a neighbouring texel keeps a surface inside the union there, and two buffers keep another one than back faces."
             .into(),
         ..Made::default()
     })
@@ -200,8 +207,8 @@ fn histogram(values: &[f64]) -> Vec<(f64, f64)> {
         counts[((value + HALF) / (2.0 * HALF) * BINS as f64) as usize] += 1;
     }
     let middle = |bin: usize| (bin as f64 + 0.5) * 2.0 * HALF / BINS as f64 - HALF;
-    let share = |count: &u32| f64::from(*count) / values.len().max(1) as f64;
-    counts.iter().enumerate().map(|(bin, count)| (middle(bin), share(count).max(1e-5))).collect()
+    let share = |count: &u32| 100.0 * f64::from(*count) / values.len().max(1) as f64;
+    counts.iter().enumerate().map(|(bin, count)| (middle(bin), share(count).max(0.005))).collect()
 }
 
 /// The value below which a share of them lies.
@@ -218,7 +225,7 @@ fn decision(cx: &Context) -> anyhow::Result<Made> {
     let soup = Soup::casters(&set.scene, &light);
     let maps = [
         ("first", bake(&light, soup.triangles(), &First, Cull::None).map),
-        ("second", bake(&light, soup.triangles(), &Second, Cull::None).map),
+        ("second", bake(&light, soup.triangles(), &BackFace, Cull::Front).map),
         ("third", bake(&light, soup.triangles(), &Third, Cull::None).map),
     ];
     let truth = set.truth_points(cx, &Frame::CENTRES);
@@ -235,7 +242,7 @@ fn decision(cx: &Context) -> anyhow::Result<Made> {
         let mut plot = Plot::new(
             &format!("Decision at the {name} surface"),
             Axis::linear("depth of the point less the map's, world units"),
-            Axis::log("share of the class in a bin of ½"),
+            Axis::log("share of the class, %"),
         );
         for (class, values) in CLASSES.iter().zip(&found) {
             plot = plot.add(Series::line(class, histogram(values)));
@@ -257,7 +264,7 @@ fn decision(cx: &Context) -> anyhow::Result<Made> {
     }
     let by = |recipe: &str| set.by(cx, recipe, &Frame::CENTRES);
     let (by_first, by_second) =
-        (by("reeves87,res-factor=0,min-size=0,samples=1,bias=0")?, by("wang-molnar94,virtual=never")?);
+        (by("reeves87,res-factor=0,min-size=0,samples=1,bias=0")?, by("wang-molnar94,virtual=never,backs=dark")?);
     let false_shadow = |picture: &Picture| value(metrics::false_shadow(&picture.shadow[0], &classes[0]));
     let measures = vec![
         Measure::at_most("first: 1 % of the lit lie below", edges[0][0], "world units", -1e-3),
