@@ -25,6 +25,9 @@ const PICTURES: &[Picture] = &[
     Picture { file: "fixtures/readme/williams.png", figure: "W78-F6", panel: "applied" },
     Picture { file: "fixtures/readme/ordinary.png", figure: "R87-F6", panel: "a-zoom" },
     Picture { file: "fixtures/readme/filtered.png", figure: "R87-F6", panel: "b-zoom" },
+    Picture { file: "fixtures/readme/biased.png", figure: "W92-F2", panel: "full" },
+    Picture { file: "fixtures/readme/midpoint.png", figure: "W92-F3", panel: "full" },
+    Picture { file: "fixtures/readme/plant.png", figure: "B06-deep", panel: "plant" },
 ];
 
 /// The numbers of a quick run with seed 0.
