@@ -13,6 +13,10 @@ mod reeves_tables;
 mod sphere_plane;
 mod spheres;
 mod studio;
+mod wang_molnar_cost;
+mod wang_molnar_failures;
+mod wang_molnar_scenes;
+mod wang_molnar_table;
 mod williams_scenes;
 mod williams_shadow;
 mod williams_views;
@@ -58,6 +62,15 @@ pub const FIGURES: &[&Figure] = &[
     &woo::F3,
     &woo::RIM,
     &woo::COST,
+    &wang_molnar_table::F4,
+    &wang_molnar_failures::F7,
+    &wang_molnar_failures::F9,
+    &wang_molnar_cost::F12,
+    &wang_molnar_scenes::F13,
+    &wang_molnar_scenes::F14,
+    &wang_molnar_scenes::F15,
+    &wang_molnar_failures::SHEETS,
+    &wang_molnar_cost::COST,
     &curves::ACNE,
     &curves::NOISE,
     &faults::FAULTS,
