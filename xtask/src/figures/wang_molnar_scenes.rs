@@ -156,7 +156,9 @@ fn hall(cx: &Context) -> anyhow::Result<Made> {
             head: head.map(String::from).to_vec(),
             rows: (0..objects.len()).map(row).collect(),
         }],
-        note: "What is left: stairs along the edges of shadows, and leaves, which are curved sheets.".into(),
+        note: "What is left: stairs along the edges of shadows; the leaves, which are curved sheets; and broken lines of light a texel wide where \
+               beams meet the ceiling, whose underside is the second surface there and touches them."
+            .into(),
         ..Made::default()
     })
 }
