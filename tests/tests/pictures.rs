@@ -31,7 +31,7 @@ fn bits(picture: &Picture) -> Vec<u32> {
 fn shot(scene: &Scene, recipe: &str, storage: Storage, frame: &Frame) -> Picture {
     let recipe: Recipe = recipe.parse().unwrap();
     let shadows: Vec<Box<dyn Shadow>> =
-        scene.lights.iter().map(|light| recipe.bind(&map(scene, &light.view), storage)).collect();
+        scene.lights.iter().map(|light| recipe.bind(map(scene, &light.view), storage)).collect();
     let shadows: Vec<&dyn Shadow> = shadows.iter().map(AsRef::as_ref).collect();
     picture(scene, &shadows, frame)
 }
@@ -80,7 +80,7 @@ fn r87_5_an_excluded_plane_still_receives_and_does_not_shadow_itself() {
     assert!(on_plane(1.0) > 100 && on_plane(0.0) > 1000, "{} dark, {} lit", on_plane(1.0), on_plane(0.0));
     let with_plane = bind(
         presets::ordinary(Bias::ZERO),
-        &self::map(&small(gallery::sphere_plane(), 64, 256), &scene.lights[0].view),
+        self::map(&small(gallery::sphere_plane(), 64, 256), &scene.lights[0].view),
         Storage::Tiled,
     );
     let acne = picture(&scene, &[&*with_plane], &Frame::CENTRES);

@@ -1,6 +1,7 @@
 //! The project's chores: `figures`, `ci`, `tidy`.
 
 mod ci;
+mod diagram;
 mod figure;
 #[expect(clippy::unnecessary_wraps, reason = "all figures are made by functions of one type")]
 mod figures;

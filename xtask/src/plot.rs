@@ -287,14 +287,23 @@ impl Plot {
     }
 
     fn colour(&self, series: &Series) -> String {
+        ink(self.family(series) % COLOURS.len())
+    }
+
+    /// Families beyond the number of colours begin again, dashed.
+    fn dash(&self, series: &Series) -> &'static str {
+        if self.family(series) >= COLOURS.len() { " stroke-dasharray=\"6 3\"" } else { "" }
+    }
+
+    /// The number of a series' family, in the order of their first series.
+    fn family(&self, series: &Series) -> usize {
         let mut families: Vec<&str> = Vec::new();
         for family in self.series.iter().map(Series::family) {
             if !families.contains(&family) {
                 families.push(family);
             }
         }
-        let index = families.iter().position(|family| *family == series.family()).unwrap_or(0) % COLOURS.len();
-        format!("var(--series-{}, {})", index + 1, COLOURS[index])
+        families.iter().position(|family| *family == series.family()).unwrap_or(0)
     }
 
     fn draw_series(&self, svg: &mut String, series: &Series, across: &Span, up: &Span) {
@@ -305,7 +314,7 @@ impl Plot {
             let corners: Vec<String> = points.iter().map(|&(x, y)| format!("{} {}", pixel(x), pixel(y))).collect();
             let path = corners.join("L");
             let style = "fill=\"none\" stroke=\"currentColor\" stroke-width=\"1.8\" stroke-linejoin=\"round\"";
-            let _ = writeln!(svg, "<path d=\"M{path}\" {style}/>");
+            let _ = writeln!(svg, "<path d=\"M{path}\" {style}{}/>", self.dash(series));
         }
         if !series.joined || points.len() <= MOST_MARKED {
             let radius = if points.len() > 60 { 1.8 } else { 3.0 };
@@ -328,7 +337,7 @@ impl Plot {
             let x = LEFT + (index % columns) as f64 * (WIDTH - LEFT - RIGHT) / columns as f64;
             let y = top + (index / columns) as f64 * LEGEND_ROW + 8.0;
             let mark = if series.joined {
-                format!("<path d=\"M{x} {y}h18\" stroke=\"currentColor\" stroke-width=\"2.4\"/>")
+                format!("<path d=\"M{x} {y}h18\" stroke=\"currentColor\" stroke-width=\"2.4\"{}/>", self.dash(series))
             } else {
                 format!("<circle cx=\"{}\" cy=\"{y}\" r=\"3\"/>", x + 9.0)
             };
@@ -344,8 +353,13 @@ impl Plot {
     }
 }
 
+/// The colour of a series: the theme's own, and one for a drawing that is opened alone.
+pub(crate) fn ink(index: usize) -> String {
+    format!("var(--series-{}, {})", index + 1, COLOURS[index])
+}
+
 /// A coordinate with two digits at most.
-fn pixel(value: f64) -> String {
+pub(crate) fn pixel(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".into() } else { text.into() }

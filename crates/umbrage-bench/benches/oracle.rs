@@ -40,7 +40,7 @@ fn rays(criterion: &mut Criterion) {
     for slices in [32, 256] {
         let faces = ball(slices);
         let triangles = faces.len();
-        let geometry = Geometry::from_faces(faces, vec![Body { casts: true, solid: true, passes: glam::Vec3::ZERO }]);
+        let geometry = Geometry::from_faces(faces, vec![Body { casts: true, solid: true, passes: Vec3::ZERO }]);
         let truth = RayCast::everywhere(&geometry, DVec4::new(0.0, 12.0, 0.0, 1.0));
         let mut out = vec![f32::NAN; points.len()];
         truth.fractions(&points, key, &mut out);

@@ -1,5 +1,6 @@
 //! What the figures share: baking a light, drawing a scene with a filter, the truth beside it, and masks.
 
+use super::penumbra::disc_light;
 use crate::figure::{Context, Panel, Role};
 use glam::{DVec2, UVec2, Vec3};
 use std::collections::HashMap;
@@ -52,9 +53,14 @@ impl Set {
 
     /// The picture with light 0's shadow by a recipe, over the map that the recipe wants.
     pub fn by(&self, cx: &Context, recipe: &str, frame: &Frame) -> anyhow::Result<Picture> {
+        Ok(self.draw(cx, &*self.shadow(cx, recipe)?, frame))
+    }
+
+    /// Light 0's shadow by a recipe, over the map that the recipe wants.
+    pub fn shadow(&self, cx: &Context, recipe: &str) -> anyhow::Result<Box<dyn Shadow>> {
         let recipe: Recipe = recipe.parse()?;
         let map = recipe.bake(&self.scene, &self.scene.lights[0].view);
-        Ok(self.draw(cx, &*recipe.bind(map, cx.storage), frame))
+        Ok(recipe.bind(map, cx.storage))
     }
 
     /// The picture without any shadow.
@@ -78,8 +84,23 @@ impl Set {
         self.ray_cast(cx, &Frame { axis, stochastic: true, every_sample: true, ..Frame::default() }, "area")
     }
 
-    /// Truth depends on scene, camera and frame alone: it is made once per run.
+    /// Rays to all of a disc in light 0's place, as the figures of soft shadows see it: one soft answer per region.
+    pub fn truth_disc(&self, cx: &Context, frame: &Frame, radius: f64) -> Arc<Picture> {
+        self.traced(cx, frame, &format!("disc {radius}"), |geometry| Box::new(disc_light(cx, self, geometry, radius)))
+    }
+
     fn ray_cast(&self, cx: &Context, frame: &Frame, what: &str) -> Arc<Picture> {
+        self.traced(cx, frame, what, |geometry| Box::new(RayCast::new(geometry, &self.scene.lights[0].view)))
+    }
+
+    /// Truth depends on scene, camera, frame and the kind of light alone: it is made once per run.
+    fn traced(
+        &self,
+        cx: &Context,
+        frame: &Frame,
+        what: &str,
+        rays: impl for<'a> Fn(&'a Geometry) -> Box<dyn Shadow + 'a>,
+    ) -> Arc<Picture> {
         static MADE: OnceLock<Mutex<HashMap<String, Arc<Picture>>>> = OnceLock::new();
         let frame = Frame { seed: cx.seed, ..*frame };
         let Scene { name, lights, camera, .. } = &self.scene;
@@ -91,7 +112,7 @@ impl Set {
             return known;
         }
         let geometry = Geometry::new(&self.scene, &self.scene.camera);
-        let truth = Arc::new(picture(&self.scene, &[&RayCast::new(&geometry, &self.scene.lights[0].view)], &frame));
+        let truth = Arc::new(picture(&self.scene, &[&*rays(&geometry)], &frame));
         if let Ok(mut made) = made.lock() {
             made.insert(name, truth.clone());
         }

@@ -170,7 +170,7 @@ fn limb(cx: &Context, set: &Set, degrees: u32, made: &mut Made) -> anyhow::Resul
 }
 
 /// One sample anywhere inside each pixel.
-const SNAPPED: Frame = Frame { axis: 1, stochastic: true, every_sample: true, seed: 0, number: 0 };
+const SNAPPED: Frame = Frame { stochastic: true, every_sample: true, ..Frame::CENTRES };
 
 pub const F4: Figure = Figure {
     id: "W78-F4",

@@ -59,7 +59,7 @@ fn profile(cx: &Context) -> anyhow::Result<Made> {
     let starred = true_surface
         .iter()
         .map(|&(at, _)| at)
-        .filter(|&at| (1e-4..1.0).contains(&behind_stored(at)))
+        .filter(|&at| at > f64::from(start + 5) && (1e-4..1.0).contains(&behind_stored(at)))
         .max_by(|a, b| behind_stored(*a).total_cmp(&behind_stored(*b)))
         .ok_or_else(|| anyhow::anyhow!("no point of the profile lies behind its sample"))?;
     let world = view.world_at(DVec2::new(starred, f64::from(row) + 0.5), -1.0 / surface(starred)).as_vec3();
@@ -204,7 +204,7 @@ fn thin(cx: &Context) -> anyhow::Result<(Picture, f64, f64)> {
     const SLAB: u32 = 0;
     let set = Set::new(gallery::thin_slab(), cx.pick(512, 256), 256);
     let points = set.truth_points(cx, &Frame::CENTRES);
-    let (new, old) = (set.by(cx, NEW, &Frame::CENTRES)?, set.by(cx, "reeves87,bias=3t..4t", &Frame::CENTRES)?);
+    let (new, old) = (set.by(cx, NEW, &Frame::CENTRES)?, set.by(cx, "reeves87,bias=3..4t", &Frame::CENTRES)?);
     let on_slab = |picture: &Picture| acne(picture, &points, border(cx), |id| id == SLAB);
     let found = (on_slab(&new), on_slab(&old));
     Ok((new, found.0, found.1))
@@ -265,12 +265,12 @@ fn rim(cx: &Context) -> anyhow::Result<Made> {
             &format!("{name}-zoom"),
             &format!("{caption}, enlarged"),
             &picture,
-            DVec2::new(0.76, 0.5),
+            DVec2::new(0.40, 0.5),
             8,
         ));
         // Straight through the board's shadow, averaged over a fan of directions.
         let light = &set.scene.lights[0];
-        let shadow = bind(Pcf { min_size: 3.0, ..presets::woo92() }, &middle_map(&set), cx.storage);
+        let shadow = bind(Pcf { min_size: 3.0, ..presets::woo92() }, middle_map(&set), cx.storage);
         let texel = light.view.texel_world(60.0).x;
         let (mut profile, key) = (Vec::new(), Key::new(cx.seed, 0, 0));
         for step in -24..=16 {

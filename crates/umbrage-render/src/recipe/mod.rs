@@ -148,7 +148,7 @@ impl FromStr for Recipe {
             "reeves87-recommended" => (Rule::First, Method::Reeves(Reeves::new(presets::reeves87_recommended()))),
             "woo92" => (Rule::Midpoint, Method::Reeves(Reeves::new(presets::woo92()))),
             "wang-molnar94" => (Rule::BackFace, Method::WangMolnar(WangMolnar::default())),
-            "burley" => (Rule::First, Method::Burley(Burley::burley())),
+            "burley" => (Rule::First, Method::Burley(Burley::cone())),
             "fernando" => (Rule::First, Method::Burley(Burley::fernando())),
             "ordinary" => {
                 let ordinary = Ordinary { pattern: EveryTexel, bias: Bias::ZERO, res_factor: 1.0 };

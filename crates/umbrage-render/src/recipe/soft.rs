@@ -19,7 +19,7 @@ pub struct Burley {
 }
 
 impl Burley {
-    pub fn burley() -> Self {
+    pub fn cone() -> Self {
         Self { depth: Depth::new(Choice::Cone, Biased::constant(Bias::ZERO)), soft: presets::burley() }
     }
 

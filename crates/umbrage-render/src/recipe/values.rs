@@ -76,10 +76,13 @@ pub fn bias_range(field: &str, value: &str) -> Result<(Bias, Bias), RecipeError>
     both.map(|(low, high)| (unit(low), unit(high))).ok_or_else(error)
 }
 
+/// A number of one unit as a radius.
+type Radius = fn(f32) -> Extent;
+
 /// A radius on the map with its unit, texels without.
 pub fn extent(field: &str, value: &str) -> Result<Extent, RecipeError> {
-    let units: [(char, fn(f32) -> Extent); 3] =
-        [('w', Extent::World), ('t', Extent::Texels), ('%', |n| Extent::Share(n / 100.0))];
+    let units: [(char, Radius); 3] =
+        [('w', Extent::World), ('t', Extent::Texels), ('%', |percent| Extent::Share(percent / 100.0))];
     let named = units.into_iter().find_map(|(letter, unit)| Some((value.strip_suffix(letter)?, unit)));
     let (digits, unit) = named.unwrap_or((value, Extent::Texels));
     let error =
