@@ -23,12 +23,16 @@ mod sphere_plane;
 mod spheres;
 mod studio;
 mod wang_molnar_bias;
+mod wang_molnar_cost;
+mod wang_molnar_failures;
 mod wang_molnar_ideas;
 mod wang_molnar_listing;
 mod wang_molnar_others;
 mod wang_molnar_planes;
+mod wang_molnar_scenes;
 mod wang_molnar_second;
 mod wang_molnar_spaces;
+mod wang_molnar_table;
 mod williams_scenes;
 mod williams_shadow;
 mod williams_views;
@@ -78,13 +82,22 @@ pub const FIGURES: &[&Figure] = &[
     &wang_molnar_ideas::F1,
     &wang_molnar_ideas::F2,
     &wang_molnar_bias::F3,
+    &wang_molnar_table::F4,
     &wang_molnar_second::F5,
     &wang_molnar_second::F6,
+    &wang_molnar_failures::F7,
     &wang_molnar_planes::F8,
+    &wang_molnar_failures::F9,
     &wang_molnar_listing::F10,
     &wang_molnar_spaces::F11,
+    &wang_molnar_cost::F12,
+    &wang_molnar_scenes::F13,
+    &wang_molnar_scenes::F14,
+    &wang_molnar_scenes::F15,
+    &wang_molnar_failures::SHEETS,
     &wang_molnar_others::TAGS,
     &wang_molnar_others::PCF_BIAS,
+    &wang_molnar_cost::COST,
     &burley_bias::I75,
     &burley::I76,
     &burley_opacity::I77,
