@@ -1,14 +1,14 @@
 //! Burley 2006, Image 76: soft shadows from one map.
 
-use super::penumbra::{DISC_10_90, Edge, axial, burley_max, depth_step, disc_light, mean_shadow};
-use super::studio::{Set, acne, colour_panel, error_panel, of, shadow_panel, truth_panel, value};
+use super::penumbra::{Edge, axial, burley_max, depth_step, mean_shadow};
+use super::studio::{Set, acne, colour_panel, error_panel, of, shadow_and_error, shadow_panel, truth_panel, value};
 use crate::figure::{Context, Figure, Made, Measure, Paper, Role, Table};
 use crate::plot::{Axis, Plot, Series};
 use crate::text::short;
 use glam::{DVec3, Vec3};
 use umbrage_oracle::{Geometry, metrics, predict};
 use umbrage_plane::SurfacePoint;
-use umbrage_render::{Frame, Picture, Recipe};
+use umbrage_render::{Frame, Recipe};
 use umbrage_scene::gallery;
 use umbrage_shadow::Shadow;
 
@@ -55,7 +55,8 @@ fn edge(set: &Set, x: f64, side: f64) -> (Edge, DVec3) {
 fn predicted(set: &Set, x: f64) -> f64 {
     let (edge, occluder) = edge(set, x, 1.0);
     let view = &set.scene.lights[0].view;
-    DISC_10_90 * predict::penumbra_width(2.0 * LIGHT, axial(view, occluder), axial(view, edge.middle.as_dvec3()))
+    predict::DISC_EDGE_10_90
+        * predict::penumbra_width(2.0 * LIGHT, axial(view, occluder), axial(view, edge.middle.as_dvec3()))
 }
 
 /// The recipes that are compared: names and texts.
@@ -107,7 +108,7 @@ fn soft(cx: &Context) -> anyhow::Result<Made> {
         PLACES.iter().map(|&x| (x, mean(x))).collect()
     };
     let geometry = Geometry::new(&set.scene, &set.scene.camera);
-    let light = disc_light(cx, &set, &geometry, LIGHT);
+    let light = set.disc_light(cx, &geometry, LIGHT);
     let exact = at(&light);
     for (name, caption, recipe) in &recipes {
         let shadow = bound(cx, &set, recipe)?;
@@ -115,7 +116,7 @@ fn soft(cx: &Context) -> anyhow::Result<Made> {
         contact.push(mean_shadow(cx, &*shadow, &strip()));
         let picture = set.draw(cx, &*shadow, &Frame::CENTRES);
         false_shadow.push(acne(&picture, &truth, 6, |_| true));
-        panels(&mut made, name, caption, recipe, &picture, &truth);
+        shadow_and_error(&mut made, (name, caption), ("recipe", recipe), &picture, &truth);
         if *name == "burley" {
             let panel = colour_panel("burley-colour", "Burley, shaded", picture.size, &picture.colour);
             made.panels.insert(0, panel.against("truth-colour"));
@@ -133,26 +134,14 @@ fn soft(cx: &Context) -> anyhow::Result<Made> {
     ));
     overlapping(cx, &mut made)?;
     made.note = format!(
-        "The light is a disc of radius {LIGHT}; {DISC_10_90:.3} of its penumbra lies between 10 and 90 %. \
+        "The light is a disc of radius {LIGHT}; {:.3} of its penumbra lies between 10 and 90 %. \
         Burley's largest radius is that of D-16 for occluders half-way up the box, and the constant biases are \
         those of D-9 for the floor half-way along the shadow. Fernando's search of the same radius needs so \
         large a bias that the box's shadow goes missing near its foot. Faces turned away from the light show \
-        what the map says of them; shading never asks."
+        what the map says of them; shading never asks.",
+        predict::DISC_EDGE_10_90
     );
     Ok(made)
-}
-
-/// A picture's panel and its error's.
-pub fn panels(made: &mut Made, name: &str, caption: &str, recipe: &str, picture: &Picture, truth: &Picture) {
-    made.panels.push(shadow_panel(name, caption, picture).with("recipe", recipe).against("truth"));
-    let caption = format!("{caption}: less truth");
-    made.panels.push(error_panel(
-        &format!("{name}-error"),
-        &caption,
-        picture.size,
-        &picture.shadow[0],
-        &truth.shadow[0],
-    ));
 }
 
 type Widths = Vec<(f64, f64)>;
@@ -233,7 +222,7 @@ fn overlapping(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
     let set = Set::new(gallery::overlapping_boxes(), cx.pick(256, 128), 1024);
     let truth = set.truth_disc(cx, &Frame::CENTRES, LIGHT);
     let geometry = Geometry::new(&set.scene, &set.scene.camera);
-    let light = disc_light(cx, &set, &geometry, LIGHT);
+    let light = set.disc_light(cx, &geometry, LIGHT);
     // The box's edge just before the board's penumbra begins.
     let edges = [76.0, 80.0, 84.0].map(|x| edge(&set, x, 1.0).0);
     let exact: Vec<f64> = edges.iter().map(|edge| edge.width(cx, &light)).collect();

@@ -2,7 +2,7 @@
 
 use super::penumbra::{depth_step, mean_shadow};
 use super::slice::{on_plane, tilted};
-use super::studio::{Set, error_panel, shadow_panel, truth_panel};
+use super::studio::{Set, shadow_and_error, truth_panel};
 use crate::diagram::{Diagram, Ink, Mark};
 use crate::figure::{Context, Figure, Made, Measure, Paper};
 use crate::plot::{Axis, Plot, Series};
@@ -287,15 +287,7 @@ fn pictures(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
         ("cone", "Cone of slope 2, no bias".to_string(), "depth=cone,slope=2,bias=0".to_string()),
     ] {
         let picture = set.by(cx, &format!("{DISC},{depth}"), &Frame::default())?;
-        made.panels.push(shadow_panel(name, &caption, &picture).with("radius", "8 texels").against("truth"));
-        let caption = format!("{caption}: less truth");
-        made.panels.push(error_panel(
-            &format!("{name}-error"),
-            &caption,
-            picture.size,
-            &picture.shadow[0],
-            &truth.shadow[0],
-        ));
+        shadow_and_error(made, (name, &caption), ("radius", "8 texels"), &picture, &truth);
     }
     made.panels.push(truth_panel(&truth));
     Ok(())

@@ -1,8 +1,8 @@
 //! Burley 2006, Image 77: the density of a shadow by the way from its caster.
 
-use super::burley::{CORNER, FLOOR, LIGHT, TAPS, bound, panels};
+use super::burley::{CORNER, FLOOR, LIGHT, TAPS, bound};
 use super::penumbra::{axial, burley_max, mean_shadow};
-use super::studio::{Set, colour_panel, truth_panel};
+use super::studio::{Set, colour_panel, shadow_and_error, truth_panel};
 use crate::figure::{Context, Figure, Made, Measure, Paper};
 use crate::plot::{Axis, Plot, Series};
 use glam::{DVec3, Vec3};
@@ -61,8 +61,9 @@ fn opacity(cx: &Context) -> anyhow::Result<Made> {
         predicted.push((delta, density(delta)));
     }
     let mut made = Made::default();
-    panels(&mut made, "off", "Opacity off, as by default", &plain, &off, &truth);
-    panels(&mut made, "on", &format!("Opacity 1 to {FAR} over {FADE} world units"), &faded, &on, &truth);
+    shadow_and_error(&mut made, ("off", "Opacity off, as by default"), ("recipe", &plain), &off, &truth);
+    let caption = format!("Opacity 1 to {FAR} over {FADE} world units");
+    shadow_and_error(&mut made, ("on", &caption), ("recipe", &faded), &on, &truth);
     made.panels.push(truth_panel(&truth));
     made.panels.push(colour_panel("colour", "The same as a picture", on.size, &on.colour));
     made.measures = vec![

@@ -1,8 +1,8 @@
 //! What Reeves, Salesin & Cook 1987 leave open, shown on purpose: the width of a filtered edge does not know how high
 //! its caster is.
 
-use super::penumbra::{DISC_10_90, Edge, axial, burley_max};
-use super::studio::{Set, error_panel, shadow_panel, truth_panel};
+use super::penumbra::{Edge, axial, burley_max};
+use super::studio::{Set, shadow_and_error, truth_panel};
 use crate::figure::{Context, Figure, Made, Measure, Paper};
 use crate::plot::{Axis, Plot, Series};
 use glam::{DVec3, Vec3};
@@ -65,18 +65,11 @@ fn widths(cx: &Context) -> anyhow::Result<Made> {
         }
         ramps.push(found.map(|board| board.2));
         let picture = set.draw(cx, &*shadow, &Frame::CENTRES);
-        made.panels.push(shadow_panel(name, caption, &picture).with("recipe", recipe).against("truth"));
-        let caption = format!("{caption}: less truth");
-        made.panels.push(error_panel(
-            &format!("{name}-error"),
-            &caption,
-            picture.size,
-            &picture.shadow[0],
-            &truth.shadow[0],
-        ));
+        shadow_and_error(&mut made, (name, caption), ("recipe", recipe), &picture, &truth);
     }
     made.panels.push(truth_panel(&truth).with("light's radius", LIGHT));
-    let exact = BOARDS.map(|board| DISC_10_90 * predict::penumbra_width(2.0 * LIGHT, floor - board.1, floor) / texel);
+    let exact = BOARDS
+        .map(|board| predict::DISC_EDGE_10_90 * predict::penumbra_width(2.0 * LIGHT, floor - board.1, floor) / texel);
     let [pcf, burley, light] = [0, 1, 2].map(|i: usize| ramps[i]);
     let ratio = |ramp: [f64; 2]| ramp[1] / ramp[0];
     made.measures = vec![

@@ -1,18 +1,13 @@
 //! What the figures of soft shadows share: widths across a straight edge in world units, radii by D-16, and biases by
 //! D-9.
 
-use super::studio::Set;
 use crate::figure::Context;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use umbrage_oracle::metrics::Profile;
-use umbrage_oracle::{AreaLight, Geometry, RayCast};
 use umbrage_plane::{SurfacePoint, View};
 use umbrage_sample::Key;
 use umbrage_shadow::Shadow;
-
-/// Share of a disc light's whole penumbra that lies between 10 and 90 %, across a straight edge.
-pub const DISC_10_90: f64 = 0.686_98;
 
 /// A straight edge of a shadow on a plane.
 pub struct Edge {
@@ -74,12 +69,6 @@ pub fn fractions(cx: &Context, shadow: &dyn Shadow, points: &[SurfacePoint]) -> 
 /// Their mean.
 pub fn mean_shadow(cx: &Context, shadow: &dyn Shadow, points: &[SurfacePoint]) -> f64 {
     fractions(cx, shadow, points).iter().map(|&dark| f64::from(dark)).sum::<f64>() / points.len().max(1) as f64
-}
-
-/// Rays to a disc in light 0's place; `radius` in world units, or the tangent of its angle when the light is
-/// directional. 256 a point, 64 in a quick run.
-pub fn disc_light<'a>(cx: &Context, set: &Set, geometry: &'a Geometry, radius: f64) -> AreaLight<'a> {
-    AreaLight::new(RayCast::new(geometry, &set.scene.lights[0].view), radius).with_samples(cx.pick(256, 64))
 }
 
 /// Distance of a place along a view's axis.

@@ -1,6 +1,6 @@
 //! Our own: what filters make of lights of several sizes, against the light itself (EXT-1, EXT-4).
 
-use super::penumbra::{DISC_10_90, Edge, axial, burley_max, disc_light};
+use super::penumbra::{Edge, axial, burley_max};
 use super::studio::{Set, error_panel, shadow_panel, truth_panel};
 use crate::figure::{Context, Figure, Made, Measure, Paper};
 use crate::plot::{Axis, Plot, Series};
@@ -60,7 +60,7 @@ fn measure(cx: &Context, set: &Set, recipe: &str, edge: &Edge, exact: &Profile) 
 /// What rays to the whole light say of an edge.
 fn by_rays(cx: &Context, set: &Set, edge: &Edge, light: f64) -> Profile {
     let geometry = Geometry::new(&set.scene, &set.scene.camera);
-    edge.profile(cx, &disc_light(cx, set, &geometry, light))
+    edge.profile(cx, &set.disc_light(cx, &geometry, light))
 }
 
 fn softness(cx: &Context) -> anyhow::Result<Made> {
@@ -83,7 +83,10 @@ fn softness(cx: &Context) -> anyhow::Result<Made> {
         Axis::linear("radius of the light, world units"),
         Axis::linear("10–90 % width, world units"),
     )
-    .add(Series::line("area light, predicted (D-16)", RADII.map(|r| (r, DISC_10_90 * whole(r))).to_vec()));
+    .add(Series::line(
+        "area light, predicted (D-16)",
+        RADII.map(|r| (r, predict::DISC_EDGE_10_90 * whole(r))).to_vec(),
+    ));
     let mut errors = Plot::new(
         "Error across the edge",
         Axis::linear("radius of the light, world units"),

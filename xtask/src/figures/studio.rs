@@ -1,13 +1,12 @@
 //! What the figures share: baking a light, drawing a scene with a filter, the truth beside it, and masks.
 
-use super::penumbra::disc_light;
-use crate::figure::{Context, Panel, Role};
+use crate::figure::{Context, Made, Panel, Role};
 use glam::{DVec2, UVec2, Vec3};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock};
 use umbrage_depth::{First, Raw, Tiled, quantise};
 use umbrage_oracle::metrics::{self, Grid};
-use umbrage_oracle::{Diagnostic, Geometry, Plan, RayCast, Truth, diagnose, heat};
+use umbrage_oracle::{AreaLight, Diagnostic, Geometry, Plan, RayCast, Truth, diagnose, heat};
 use umbrage_plane::{Kind, Sampling, SurfacePoint, View};
 use umbrage_raster::Cull;
 use umbrage_render::{Frame, Map, NOTHING, Picture, Recipe, Soup, bake, bind, bind_lights, light_maps, picture};
@@ -86,7 +85,13 @@ impl Set {
 
     /// Rays to all of a disc in light 0's place, as the figures of soft shadows see it: one soft answer per region.
     pub fn truth_disc(&self, cx: &Context, frame: &Frame, radius: f64) -> Arc<Picture> {
-        self.traced(cx, frame, &format!("disc {radius}"), |geometry| Box::new(disc_light(cx, self, geometry, radius)))
+        self.traced(cx, frame, &format!("disc {radius}"), |geometry| Box::new(self.disc_light(cx, geometry, radius)))
+    }
+
+    /// Rays to a disc in light 0's place; `radius` in world units, or the tangent of its angle when the light is
+    /// directional. 256 a point, 64 in a quick run.
+    pub fn disc_light<'a>(&self, cx: &Context, geometry: &'a Geometry, radius: f64) -> AreaLight<'a> {
+        AreaLight::new(RayCast::new(geometry, &self.scene.lights[0].view), radius).with_samples(cx.pick(256, 64))
     }
 
     fn ray_cast(&self, cx: &Context, frame: &Frame, what: &str) -> Arc<Picture> {
@@ -257,6 +262,25 @@ pub fn shadow_image_panel(name: &str, caption: &str, size: UVec2, shadow: &[f32]
 /// The truth's panel of a figure.
 pub fn truth_panel(truth: &Picture) -> Panel {
     shadow_panel("truth", "Ray-traced truth", truth).role(Role::Truth)
+}
+
+/// A method's shadow with one parameter under it, and its error beside it.
+pub fn shadow_and_error(
+    made: &mut Made,
+    (name, caption): (&str, &str),
+    (parameter, value): (&str, &str),
+    picture: &Picture,
+    truth: &Picture,
+) {
+    made.panels.push(shadow_panel(name, caption, picture).with(parameter, value).against("truth"));
+    let (own, exact) = (&picture.shadow[0], &truth.shadow[0]);
+    made.panels.push(error_panel(
+        &format!("{name}-error"),
+        &format!("{caption}: less truth"),
+        picture.size,
+        own,
+        exact,
+    ));
 }
 
 /// Result less truth as colours.

@@ -75,6 +75,7 @@ fn profile(cx: &Context) -> anyhow::Result<Made> {
     .add(Series::line("stored by the old rule", at_columns(&first)))
     .add(Series::line("midpoint", at_columns(&middle)))
     .add(Series::dots("the point (*)", vec![(starred, surface(starred))]));
+    // E-W1: noted, not reproduced.
     Ok(Made {
         plots: vec![("profile".into(), plot.svg())],
         measures: vec![
