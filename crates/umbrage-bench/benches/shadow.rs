@@ -4,20 +4,12 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{UVec2, Vec3};
 use std::hint::black_box;
-use umbrage_depth::{First, Tiled};
 use umbrage_plane::SurfacePoint;
-use umbrage_raster::Cull;
-use umbrage_render::{Recipe, Soup, Storage, bake};
+use umbrage_render::{Recipe, Storage};
 use umbrage_sample::Key;
 use umbrage_scene::gallery;
 
 const SIDE: u32 = 256;
-
-fn map() -> Tiled {
-    let scene = gallery::sphere_plane();
-    let view = scene.lights[0].view.with_size(UVec2::splat(1024)).expect("a valid size");
-    bake(&view, Soup::casters(&scene, &view).triangles(), &First, Cull::None).map
-}
 
 /// Points of the plane row by row, each with the footprint of a pixel.
 fn receivers() -> Vec<SurfacePoint> {
@@ -33,18 +25,27 @@ fn receivers() -> Vec<SurfacePoint> {
 }
 
 fn filters(criterion: &mut Criterion) {
-    let (map, points, key) = (map(), receivers(), Key::new(1, 0, 0));
+    let (points, key) = (receivers(), Key::new(1, 0, 0));
+    let scene = gallery::sphere_plane();
+    let view = scene.lights[0].view.with_size(UVec2::splat(1024)).expect("a valid size");
     let mut out = vec![f32::NAN; points.len()];
     let recipes = [
         ("pcf", "reeves87", 16),
         ("pcf-plane", "reeves87,depth=plane,bias=0.3", 16),
         ("ordinary", "reeves87,pattern=centre,bias=0.35", 1),
         ("williams", "williams78,bias=0.35,lookup=bilinear", 4),
+        ("midpoint", "woo92", 16),
+        ("midpoint-integers", "woo92,compare=integer", 16),
+        ("midpoint-cone", "woo92,depth=cone", 16),
+        ("conditional", "wang-molnar94", 4),
+        ("soft", "burley", 64),
+        ("pcf-deep", "reeves87,stored=deep,sub-samples=1", 16),
     ];
     for (name, text, samples) in recipes {
         let mut group = criterion.benchmark_group(format!("shadow/{name}"));
         group.throughput(Throughput::Elements(points.len() as u64));
         let recipe: Recipe = text.parse().expect("a recipe");
+        let map = recipe.bake(&scene, &view);
         for (kept, storage) in [("raw", Storage::Raw), ("bbox", Storage::Bbox), ("tiled32", Storage::Tiled)] {
             let shadow = recipe.bind(&map, storage);
             shadow.fractions(&points, key, &mut out);
