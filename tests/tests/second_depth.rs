@@ -62,7 +62,6 @@ fn wm94_1_wm94_13_closed_solids_never_shadow_themselves_without_a_bias() {
             let judged = judged(&scene, truth);
             assert!(judged.len() > 1000, "{name}, {texels}²: only {} pixels to judge", judged.len());
             let dark: Vec<usize> = judged.iter().copied().filter(|&i| found.shadow[0][i] > 0.0).collect();
-            eprintln!("{name} {texels}: {} of {}", dark.len(), judged.len());
             if let Some(&first) = dark.first() {
                 let (at, object) = (found.position[first], &scene.objects[found.object[first] as usize].name);
                 let (count, all) = (dark.len(), judged.len());
