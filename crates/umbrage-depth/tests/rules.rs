@@ -113,7 +113,7 @@ fn texels_without_a_fragment_hold_nothing() {
 }
 
 #[test]
-fn v47_midpoints() {
+fn v47_w92_1_w92_2_midpoints() {
     let half = |zetas: &[f64]| {
         let fragments: Vec<_> = zetas.iter().map(|&zeta| front(zeta)).collect();
         let found: Vec<f32> =
@@ -133,7 +133,7 @@ fn v47_midpoints() {
 
 /// W92-1b: halfway in world distance, not in the map's own depth, which would store ζ = 6.428571.
 #[test]
-fn v47b_midpoints_are_halfway_in_the_world_whatever_the_kind() {
+fn v47b_w92_1b_midpoints_are_halfway_in_the_world_whatever_the_kind() {
     let pair = [front(5.0), back(9.0)];
     let screen = perspective().with_kind(Kind::Screen);
     let z_of = |zeta: f64| screen.decode().depth(screen.key(zeta) as f32, AT);

@@ -72,7 +72,7 @@ impl Receiver {
         DepthPlane { key, decode: view.decode() }
     }
 
-    /// The depth to compare: this receiver's, moved toward the light by `bias`. The only place where a bias is applied.
+    /// The depth to compare: this receiver's, moved toward the light by `bias`. The only place where a [`Bias`] is applied.
     ///
     /// A world bias is exact in every kind of map (spec D-8).
     #[inline(always)]

@@ -137,7 +137,8 @@ impl Gather<'_> {
         for fragment in sample {
             let passes = scene.objects[fragment.object as usize].passes.clamp(Vec3::ZERO, Vec3::ONE).as_dvec3();
             let depth = decode.depth(fragment.key, at).max(nearest);
-            if light == DVec3::ZERO || depth == f32::INFINITY {
+            // Depths from 1e30 on are none (C-5).
+            if light == DVec3::ZERO || depth >= 1e30 {
                 break;
             }
             falls.push((depth, light - light * passes));

@@ -88,7 +88,9 @@ fn ext_2_moments_share_the_light_between_them() {
     let light_behind = |world: f32| map.transmittance(IVec2::new(((world + 16.0) * 2.0) as i32, 9), 1e9).x;
     assert_eq!([-1.0, 1.0, 5.0, 9.0, 13.0].map(light_behind), [1.0, 0.75, 0.5, 0.25, 0.0]);
     // A single depth a texel sees each moment in its own share of the texels.
-    let drawn = bake_moments(&light().view, &moments, &First, 3);
+    let view = light().view;
+    let first = |scene: &Scene| bake(&view, Soup::casters(scene, &view).triangles(), &First, Cull::None).map;
+    let drawn = bake_moments(&view, &moments, 3, first);
     let dark = |from: i32, to: i32| {
         let all: Vec<IVec2> = TexelRect::new(IVec2::new(from, 0), IVec2::new(to, 64)).texels().collect();
         all.iter().filter(|texel| drawn.depth(**texel).is_finite()).count() as f64 / all.len() as f64
@@ -96,8 +98,16 @@ fn ext_2_moments_share_the_light_between_them() {
     for (from, to, share) in [(0, 32, 0.0), (32, 40, 0.25), (40, 48, 0.5), (48, 56, 0.75), (56, 64, 1.0)] {
         assert!((dark(from, to) - share).abs() < 0.08, "columns {from} to {to}: {}", dark(from, to));
     }
-    assert_eq!(Raw::from(&drawn), Raw::from(&bake_moments(&light().view, &moments, &First, 3)), "the same again");
-    assert_eq!(bake_moments(&light().view, &[], &First, 3).tile_count(), 0);
+    assert_eq!(Raw::from(&drawn), Raw::from(&bake_moments(&view, &moments, 3, first)), "the same again");
+    assert_eq!(bake_moments(&view, &[], 3, first).tile_count(), 0);
+    // A recipe of one surface does the same, whatever its rule.
+    let normals: Recipe = "wang-molnar94,stored=normals".parse().unwrap();
+    let Map::Tiled(tiles) = normals.bake_moments(&moments, &view) else { panic!("one surface") };
+    let alone = |scene: &Scene| match normals.bake(scene, &view) {
+        Map::Tiled(tiles) => tiles,
+        _ => panic!("one surface"),
+    };
+    assert_eq!(tiles, bake_moments(&view, &moments, 0, alone));
 }
 
 #[test]
@@ -164,4 +174,18 @@ fn bad_bounds_are_refused_by_value() {
     assert_eq!(Deep::new(1.0, 4).unwrap_err().to_string(), "deep map error bound 1 is not within 0..1");
     assert!(Deep::new(f32::NAN, 4).is_err() && Deep::new(-0.1, 4).is_err());
     assert_eq!("reeves87,stored=deep,epsilon=1".parse::<Recipe>().unwrap_err().field, "epsilon");
+}
+
+#[test]
+fn depths_that_are_none_are_no_surfaces_of_a_deep_map() {
+    // Along (1, 1, 1), corners that are each within bounds lie beyond them together.
+    let far = 9e29f32;
+    let corners = [Vec3::new(far, far, 0.0), Vec3::new(far, 0.0, far), Vec3::new(0.0, far, far), Vec3::splat(far)];
+    let mesh = Shape::Mesh(Mesh::sheet(corners, 1));
+    let scene = scene(vec![Object::two_sided("far", mesh, Material::matt(Vec3::ONE))]);
+    let view = View::orthographic(DVec3::ZERO, DVec3::ONE, DVec3::Y, 1e30, 0.0, 1e31, UVec2::splat(16)).unwrap();
+    let map = bake_deep(&view, &[&scene], &lossless(1));
+    for texel in TexelRect::of_size(view.size()).texels() {
+        assert!(map.steps(texel).iter().all(|step| step.depth < 1e30), "{texel}");
+    }
 }

@@ -6,6 +6,7 @@ use umbrage_plane::{Sampling, SurfacePoint, TexelRect, View};
 use umbrage_raster::Cull;
 use umbrage_render::{Frame, Recipe, Soup, bake, bake_by_normals, bake_multi, bake_tags, picture};
 use umbrage_scene::{Material, Mesh, Object, Scene, gallery};
+use umbrage_shadow::Shadow;
 
 const GREY: Material = Material::matt(Vec3::splat(0.7));
 
@@ -192,7 +193,7 @@ fn w92_11_memory_does_not_grow_with_the_number_of_objects() {
 fn wm94_11_shadows_may_be_given_the_interpolated_normal() {
     use std::sync::Mutex;
     struct Heard(Mutex<Vec<Vec3>>);
-    impl umbrage_shadow::Shadow for Heard {
+    impl Shadow for Heard {
         fn fractions(&self, at: &[SurfacePoint], _key: umbrage_sample::Key, out: &mut [f32]) {
             out.fill(0.0);
             self.0.lock().unwrap().extend(at.iter().filter(|point| point.object == 0).map(|point| point.normal));
@@ -229,4 +230,64 @@ fn threads_change_no_bit_of_any_builder() {
         })
     };
     assert!(all(1) == all(3));
+}
+
+#[test]
+fn t_1_w92_9_a_single_sheet_over_a_floor_that_is_left_out_loses_its_shadow_to_midpoints_and_a_solid_does_not() {
+    let sheet = |height: f32| {
+        let corners = [(-9.0, -9.0), (9.0, -9.0), (9.0, 9.0), (-9.0, 9.0)].map(|(x, y)| Vec3::new(x, y, height));
+        Object::two_sided("sheet", umbrage_scene::Shape::Mesh(Mesh::sheet(corners, 1)), GREY)
+    };
+    let solid = |height: f32| {
+        let mesh = Mesh::cuboid(Vec3::new(-9.0, -9.0, height), Vec3::new(9.0, 9.0, height + 2.0));
+        Object::solid("board", mesh, GREY)
+    };
+    let floor = |casts| {
+        let mesh = Mesh::cuboid(Vec3::new(-60.0, -60.0, -4.0), Vec3::new(60.0, 60.0, 0.0));
+        Object { casts, ..Object::solid("floor", mesh, GREY) }
+    };
+    let recipe: Recipe = "woo92".parse().unwrap();
+    let shadow = |caster: Object, casts: bool| {
+        let scene = with(vec![caster, floor(casts)]);
+        // Below the middle of the caster, along the light.
+        let view = view(&scene, 256);
+        let away = (DVec3::new(0.0, 0.0, 20.0) - view.light().truncate()).normalize();
+        let under = DVec3::new(0.0, 0.0, 20.0) + away * (20.0 / -away.z);
+        let map = recipe.bake(&scene, &view);
+        let shadow = recipe.bind(map, umbrage_render::Storage::Tiled);
+        shadow.fraction(&SurfacePoint::at(under.as_vec3(), Vec3::Z), umbrage_sample::Key::new(0, 0, 0))
+    };
+    assert_eq!(shadow(sheet(20.0), false), 0.0, "one surface is none");
+    assert_eq!(shadow(sheet(20.0), true), 1.0, "the floor in the map is the second");
+    assert_eq!(shadow(solid(20.0), false), 1.0, "a solid has two of its own");
+}
+
+#[test]
+fn t_8_wm94_4_shading_darkens_the_backs_of_solids_and_lights_the_side_of_a_sheet_that_faces_the_light() {
+    // The light stands on the camera's side of a sheet and on the far side of a ball.
+    let ball = Object::solid("ball", Mesh::sphere(Vec3::new(30.0, 0.0, 20.0), 8.0, 48), GREY);
+    let corners = [(-30.0, -10.0), (-10.0, -10.0), (-10.0, 10.0), (-30.0, 10.0)].map(|(x, y)| Vec3::new(x, y, 20.0));
+    let shape = umbrage_scene::Shape::Mesh(Mesh::sheet(corners, 1));
+    let sheet = Object::two_sided("sheet", shape, GREY);
+    let camera =
+        View::orthographic(DVec3::Z * 80.0, DVec3::ZERO, DVec3::Y, 40.0, 1.0, 200.0, UVec2::splat(80)).unwrap();
+    let lit_from = |z: f64| {
+        let to_light = DVec3::new(0.0, 0.0, z);
+        let light = umbrage_scene::Light::directional("sun", to_light, DVec3::ZERO, 60.0, 1.0, 300.0, UVec2::splat(64));
+        let scene = Scene {
+            lights: vec![light.unwrap()],
+            ambient: Vec3::ZERO,
+            camera,
+            ..with(vec![ball.clone(), sheet.clone()])
+        };
+        let seen = picture(&scene, &[&umbrage_shadow::Unshadowed], &Frame::CENTRES);
+        let brightest = |object: u32| {
+            let all = (0..seen.object.len()).filter(|&i| seen.object[i] == object && seen.share[i] == 1.0);
+            all.map(|i| seen.colour[i].max_element()).fold(0.0, f32::max)
+        };
+        [brightest(0), brightest(1)]
+    };
+    let (front, back) = (lit_from(1.0), lit_from(-1.0));
+    assert!(front[0] > 0.6 && front[1] > 0.6, "{front:?}");
+    assert_eq!(back, [0.0, 0.0], "nothing that faces away is lit by |N·L|");
 }

@@ -78,7 +78,7 @@ impl<P: Pattern> Filter for Conditional<P> {
         let view = map.view();
         let region = receiver.footprint.scaled(self.res_factor, self.min_size, view.size().as_vec2() * 0.25);
         let own = Biased::constant(self.plane.bias);
-        let plain = share(simd, map, receiver, &region, (&self.pattern, &own), key, probe);
+        let (plain, texels) = share(simd, map, receiver, &region, (&self.pattern, &own), key);
         let agreed = plain == 0.0 || plain == 1.0;
         let asked = match self.when {
             VirtualWhen::Mixed => !agreed,
@@ -86,9 +86,12 @@ impl<P: Pattern> Filter for Conditional<P> {
             VirtualWhen::Never => false,
         };
         if !asked || receiver.facing.abs() < self.min_cos {
+            probe.looked(texels);
             return plain;
         }
+        let (on_plane, again) = share(simd, map, receiver, &region, (&self.pattern, &self.plane), key);
         probe.virtual_sampled();
-        share(simd, map, receiver, &region, (&self.pattern, &self.plane), key, probe)
+        probe.looked(texels + again);
+        on_plane
     }
 }

@@ -21,7 +21,7 @@ pub enum Radius {
 ///
 /// Distances are in world units on the plane square to the light's axis through the receiver, so that `slope` is the tangent of the steepest
 /// tilt that is free of false shadow. That is certain with [`Radius::TexelCentre`], whatever the texel (D-15), in maps of
-/// axial and of screen depth.
+/// axial and of screen depth, but for rounding at the very tip (see `base`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
     /// Bias at the cone's tip, world units, from 0. A receiver exactly on a sample of the map wants the rounding of stored depths, some 10⁻⁶ of

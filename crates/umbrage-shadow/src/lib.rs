@@ -42,6 +42,7 @@ mod probe;
 mod shadow;
 mod share;
 mod soft;
+mod tags;
 pub mod williams;
 
 pub use around::{Around, AroundError, Evaluate};
@@ -56,4 +57,5 @@ pub use pcf::Pcf;
 pub use probe::{Counters, Probe};
 pub use shadow::{Shadow, ShadowMap, Unshadowed};
 pub use soft::{Extent, Falloff, Opacity, Soft, Softness, factor};
+pub use tags::Tags;
 pub use williams::Williams;

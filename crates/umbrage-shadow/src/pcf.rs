@@ -58,6 +58,8 @@ impl<P: Pattern, D: ReceiverDepth> Filter for Pcf<P, D> {
                 return 1.0;
             }
         }
-        share(simd, map, receiver, &region, (&self.pattern, &self.depth), key, probe)
+        let (dark, texels) = share(simd, map, receiver, &region, (&self.pattern, &self.depth), key);
+        probe.looked(texels);
+        dark
     }
 }

@@ -1,23 +1,23 @@
+use crate::ReceiverDepth;
 use crate::depth::lane;
-use crate::{Probe, ReceiverDepth};
 use fearless_simd::{Simd, prelude::*};
 use umbrage_depth::DepthMap;
 use umbrage_plane::{Footprint, Receiver, TexelRect, Verdict, View, floor_texel};
 use umbrage_sample::{Key, Pattern, Taps};
 
-/// What every comparing filter is made of: the share of a region's taps that are in shadow, weights included, 0 without a tap.
+/// What every comparing filter is made of: the share of a region's taps that are in shadow, weights included, 0 without a tap, and how many
+/// texels were read for it.
 ///
 /// Taps outside the map or the cone answer by the view's rules (C-10); texels of deep maps by what passes them (B06-11).
 #[inline(always)]
-pub(crate) fn share<S: Simd, M: DepthMap, P: Pattern, D: ReceiverDepth, Q: Probe>(
+pub(crate) fn share<S: Simd, M: DepthMap, P: Pattern, D: ReceiverDepth>(
     simd: S,
     map: &M,
     receiver: &Receiver,
     region: &Footprint,
     (pattern, depth): (&P, &D),
     key: Key,
-    probe: &mut Q,
-) -> f32 {
+) -> (f32, u32) {
     let view = map.view();
     let rect = TexelRect::around(region.centre, region.half);
     let inside = view.holds(region.centre, region.half);
@@ -50,8 +50,7 @@ pub(crate) fn share<S: Simd, M: DepthMap, P: Pattern, D: ReceiverDepth, Q: Probe
             hits += nearer.count_ones() as f32;
         }
     });
-    probe.looked(looked);
-    if count > 0.0 { hits / count } else { 0.0 }
+    (if count > 0.0 { hits / count } else { 0.0 }, looked)
 }
 
 /// The hits of a batch of taps with those outside the map or the cone answered by the view's rules (spec C-10, W92-6).

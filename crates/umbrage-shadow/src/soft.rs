@@ -46,8 +46,8 @@ pub enum Softness {
     Light {
         /// Radius of the disc in world units; of a directional light, the tangent of its angular radius (the sun: .00465).
         radius: f32,
-        /// No occluder is nearer to the light than this, axial world units: it bounds the search. The near plane's distance is
-        /// always safe; larger is faster and less noisy.
+        /// No occluder is nearer to the light than this, axial world units: it bounds the search. 0, or anything below it, is the near
+        /// plane's distance, which is always safe; larger is less noisy.
         nearest: f32,
     },
 }
@@ -57,8 +57,9 @@ impl Softness {
     #[inline(always)]
     fn search(self, view: &View, receiver: &Receiver, distance: f32) -> Vec2 {
         match self {
-            Self::Between { max, .. } => max.texels(view, receiver),
-            Self::Light { nearest, .. } => self.blur(view, receiver, nearest, distance, 1.0),
+            Self::Between { min, max } => max.texels(view, receiver).max(min.texels(view, receiver)),
+            // What is nearer than the near plane stands at it in the map.
+            Self::Light { nearest, .. } => self.blur(view, receiver, nearest.max(view.near() as f32), distance, 1.0),
         }
     }
 
@@ -101,6 +102,13 @@ pub enum Falloff {
         /// Weight at the rim.
         rim: f32,
     },
+    /// As a power of the share of the radius: 1 − (1 − `rim`)·shareᵖ.
+    Power {
+        /// Weight at the rim.
+        rim: f32,
+        /// p, above 0: 1 is the straight line, more keeps the middle's weight for longer.
+        exponent: f32,
+    },
     /// All alike: the plain mean (Fernando 2005; B06-9).
     Flat,
 }
@@ -112,6 +120,7 @@ impl Falloff {
         match self {
             Self::Linear { rim } => 1.0 - (1.0 - rim) * share,
             Self::Smooth { rim } => rim + (1.0 - rim) * (0.5 + 0.5 * (std::f32::consts::PI * share.min(1.0)).cos()),
+            Self::Power { rim, exponent } => 1.0 - (1.0 - rim) * share.max(0.0).powf(exponent),
             Self::Flat => 1.0,
         }
     }
@@ -137,6 +146,9 @@ impl Opacity {
     /// The density for a gap in world units.
     #[inline(always)]
     pub fn at(&self, gap: f32) -> f32 {
+        if self.fade == f32::INFINITY {
+            return self.near;
+        }
         let share = (gap / self.fade).clamp(0.0, 1.0).powf(self.gamma);
         self.near + (self.far - self.near) * (share * share * (3.0 - 2.0 * share))
     }
@@ -262,20 +274,22 @@ impl<D: ReceiverDepth> Filter for Soft<D> {
         let at_least = |radius: Vec2| Footprint::boxed(centre, radius.max(half).min(most));
         let own = distance(view, receiver.depth) as f32;
         let search = at_least(self.softness.search(view, receiver, own));
-        probe.looked(self.search.num_samples.max(1));
         let found = self.occluders(simd, map, receiver, &search, key);
         let mean = found.unwrap_or(own);
         let region = at_least(self.softness.blur(view, receiver, mean, own, self.radius_gamma));
         // What the rules alone darken, in front of everything that is stored: no occluder's opacity thins it.
-        let beyond = if view.holds(region.centre, region.half) {
-            0.0
+        let (beyond, asked) = if view.holds(region.centre, region.half) {
+            (0.0, 0)
         } else {
-            share(simd, map, receiver, &region, (&self.blur, &Biased::constant(Bias::Map(f32::INFINITY))), key, &mut ())
+            share(simd, map, receiver, &region, (&self.blur, &Biased::constant(Bias::Map(f32::INFINITY))), key)
         };
+        let searched = self.search.num_samples.max(1) + asked;
         if found.is_none() && !self.rescue {
+            probe.looked(searched);
             return beyond;
         }
-        let dark = share(simd, map, receiver, &region, (&self.blur, &self.depth), key, probe);
+        let (dark, blurred) = share(simd, map, receiver, &region, (&self.blur, &self.depth), key);
+        probe.looked(searched + blurred);
         beyond + (dark - beyond) * self.opacity.at(own - mean)
     }
 }

@@ -28,6 +28,9 @@ const METHODS: [Method; 10] = [
     ("second depth, tangent plane, filtered", "reeves87,stored=back-face,depth=plane,slack=1,bias=0"),
 ];
 
+/// So many of them, the first, are published as such.
+const PUBLISHED: usize = 7;
+
 /// Index of a method by its name.
 fn index(name: &str) -> usize {
     METHODS.iter().position(|method| method.0 == name).unwrap_or(METHODS.len())
@@ -53,7 +56,8 @@ fn judge(cx: &Context, picture: &Picture, truth: &Picture) -> Judged {
     let seen: Vec<bool> = truth.share.iter().zip(&truth.facing[0]).map(|(s, f)| *s == 1.0 && *f > 0.05).collect();
     Judged {
         acne: acne(picture, truth, border(cx), |_| true),
-        leak: leak(picture, truth, border(cx)),
+        // Beside the soft edges that filters are made for; what contacts leak lies farther in.
+        leak: leak(picture, truth, cx.pick(2, 1)),
         rms: value(metrics::rms(&picture.shadow[0], &truth.shadow[0], &seen)),
     }
 }
@@ -202,7 +206,7 @@ pub const PRESETS: Figure = Figure {
     id: "U-presets",
     paper: Paper::Umbrage,
     title: "All methods, all scenes, every fault by name",
-    claim: "No method is free of every fault on every scene; which fault each one has is a property of the method.",
+    claim: "No published method is free of false shadow and leaks on every scene; which fault each one has is a property of the method.",
     make: presets,
 };
 
@@ -282,7 +286,8 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
             worst("Woo 1992", |one| one.acne, true),
             "share",
             0.02,
-        ),
+        )
+        .full_size(cx),
         Measure::at_least(
             "midpoints: worst false shadow of all",
             worst("Woo 1992", |one| one.acne, false),
@@ -290,22 +295,29 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
             0.02,
         ),
     ];
-    let clean =
-        |row: &[Judged; STAGES.len()]| row.iter().all(|one| !(one.acne > 0.005 || one.leak > 0.02 || one.rms.is_nan()));
-    let all_clean = found.iter().filter(|row| clean(row)).count();
+    let sum = |name: &str| found[index(name)].iter().map(|one| one.acne).sum::<f64>();
+    let others = METHODS.iter().filter(|method| method.0 != "midpoint in the cone").map(|method| sum(method.0));
     measures.push(Measure::at_most(
-        "methods without false shadow above .5 % and leaks above 2 % anywhere",
-        all_clean as f64,
-        "of 10",
+        "midpoints in the cone: false shadow on all scenes less the least of the others",
+        sum("midpoint in the cone") - others.fold(f64::INFINITY, f64::min),
+        "sum of shares",
         0.0,
     ));
-    for ((name, _), row) in METHODS.iter().zip(&found) {
-        let count = row.iter().filter(|one| !(one.acne > 0.005 || one.leak > 0.02)).count();
-        measures.push(Measure::info(&format!("{name}: scenes without such faults"), count as f64, "of 12"));
+    let clean = |one: &Judged| !(one.acne > 0.005 || one.leak > 0.02 || one.rms.is_nan());
+    let counts = found.iter().map(|row| row.iter().filter(|one| clean(one)).count());
+    for (method, ((name, _), count)) in METHODS.iter().zip(counts).enumerate() {
+        let name = format!("{name}: scenes without false shadow above .5 % and leaks above 2 %");
+        let all = STAGES.len() as f64;
+        let measure = if method < PUBLISHED {
+            Measure::at_most(&name, count as f64, "of 12", all - 1.0)
+        } else {
+            Measure::info(&name, count as f64, "of 12")
+        };
+        measures.push(measure);
     }
     made.measures = measures;
-    made.note = "False shadow is looked for on lit surfaces that face the light, leaks on shadowed ones, both away from truth's edges; the error is \
-                 that of every wholly covered pixel. Soft methods are judged against the hard truth of a point light. Maps are 512², a pixel is asked once."
+    made.note = "False shadow is looked for on lit surfaces that face the light, leaks on shadowed ones, both off truth's edges; the error is \
+                 that of every wholly covered pixel. Midpoints in Burley's cone, which nobody published, come through all twelve scenes. Soft methods are judged against the hard truth of a point light. Maps are 512², a pixel is asked once."
         .into();
     Ok(made)
 }

@@ -7,11 +7,11 @@ use crate::plot::{Axis, Plot, Series};
 use glam::{DVec3, UVec2, Vec3};
 use umbrage_depth::{TagMap, Tiled};
 use umbrage_oracle::{metrics, predict};
-use umbrage_plane::{SurfacePoint, TexelRect, Verdict, View, mix32};
+use umbrage_plane::{SurfacePoint, TexelRect, View, mix32};
 use umbrage_render::{Frame, Picture, Recipe, Soup, bake_tags};
 use umbrage_sample::Key;
 use umbrage_scene::{Light, Material, Mesh, Object, Scene, Shape, gallery};
-use umbrage_shadow::Shadow;
+use umbrage_shadow::Tags;
 
 pub const TAGS: Figure = Figure {
     id: "WM94-tags",
@@ -20,24 +20,6 @@ pub const TAGS: Figure = Figure {
     claim: "With a tag a polygon, edges between polygons are falsely dark; with a tag an object, it cannot shadow itself.",
     make: tags,
 };
-
-/// The baseline: lit where the texel's tag is the receiver's own.
-struct Tags(TagMap);
-
-impl Shadow for Tags {
-    fn fractions(&self, at: &[SurfacePoint], _key: Key, out: &mut [f32]) {
-        let view = self.0.view();
-        for (point, fraction) in at.iter().zip(out) {
-            *fraction = match view.receiver(point) {
-                Ok(seen) => {
-                    let texel = seen.footprint.centre.floor().as_ivec2();
-                    f32::from(u8::from(self.0.id(texel).is_some_and(|id| id != point.object)))
-                }
-                Err(place) => f32::from(u8::from(view.rules().verdict(place) == Verdict::Shadowed)),
-            };
-        }
-    }
-}
 
 /// A ring that leans over a slab and shades its own far side, and a ball.
 fn ring() -> anyhow::Result<Scene> {

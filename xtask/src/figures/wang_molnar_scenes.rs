@@ -118,7 +118,8 @@ pub const F14: Figure = Figure {
 fn hall(cx: &Context) -> anyhow::Result<Made> {
     let texels = cx.pick(2048, 1024);
     let set = Set::new(gallery::walkthrough(), cx.pick(1024, 384), texels);
-    let still = Still::new(cx, &set, cx.pick(6, 3))?;
+    // A pixel is about a texel here, and the filter two.
+    let still = Still::new(cx, &set, 2)?;
     let objects = &set.scene.objects;
     let wrong = still.wrong();
     let edges = metrics::edge_mask(shadow_grid(&still.truth), still.border);

@@ -22,7 +22,8 @@ pub(super) fn decode(bytes: &[u8], most_steps: u64) -> Result<DeepMap, Fault> {
     let columns = Columns::of(header)?;
     let epsilon = match header.own_attributes.other.get(&Text::from(EPSILON)) {
         Some(AttributeValue::F32(epsilon)) => *epsilon,
-        _ => 0.0,
+        Some(other) => return Err(Fault::new(EPSILON, format!("{other:?}"), "expected a 32-bit number")),
+        None => 0.0,
     };
     let size = file.view.size().as_ivec2();
     let window = file.layout.window();

@@ -8,7 +8,7 @@ pub fn lit_mask(truth: Grid, facing: &[f32], border: usize, min_facing: f32) -> 
 }
 
 /// Pixels on which light would leak (M8): truth is 1, the surface faces the light (cosine above `min_facing`), and
-/// nothing lighter than 1 in truth lies within `border` pixels. §9 measures with both at 0.
+/// nothing lighter than 1 in truth lies within `border` pixels, 0 for all of them (M8).
 ///
 /// Background counts as lit surroundings: pictures hold 0 there.
 pub fn dark_mask(truth: Grid, facing: &[f32], border: usize, min_facing: f32) -> Vec<bool> {

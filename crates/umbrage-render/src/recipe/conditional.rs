@@ -6,7 +6,7 @@ use crate::Map;
 use umbrage_sample::Tent;
 use umbrage_shadow::{Conditional, Shadow, VirtualWhen, presets};
 
-pub const FIELDS: &str = "stored, ratio, merge, epsilon, sub-samples, nearby, pattern, res-factor, min-size, bias, slack, virtual, min-cos or backs";
+pub const FIELDS: &str = "stored, ratio, merge, same, epsilon, sub-samples, nearby, pattern, res-factor, min-size, bias, slack, reach, virtual, min-cos or backs";
 
 /// The named parts of a recipe of second surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +31,7 @@ impl WangMolnar {
             "min-size" => filter.min_size = number(field, value)?,
             "bias" => filter.plane.bias = bias(field, value)?,
             "slack" => filter.plane.slack = share(field, value)?,
+            "reach" => filter.plane.reach = number(field, value)?,
             "virtual" => {
                 let known =
                     [("mixed", VirtualWhen::Mixed), ("always", VirtualWhen::Always), ("never", VirtualWhen::Never)];

@@ -21,16 +21,17 @@ pub struct Depth {
     pub slope: f32,
     pub radius: Radius,
     pub slack: f32,
+    pub reach: f32,
 }
 
 impl Depth {
     pub fn new(choice: Choice, biased: Biased) -> Self {
         let Cone { slope, radius, .. } = Cone::default();
-        Self { choice, biased, slope, radius, slack: 0.0 }
+        Self { choice, biased, slope, radius, slack: 0.0, reach: f32::INFINITY }
     }
 
     pub fn plane(&self) -> OnPlane {
-        OnPlane { slack: self.slack, ..OnPlane::biased(self.biased.low) }
+        OnPlane { bias: self.biased.low, slack: self.slack, reach: self.reach }
     }
 
     pub fn cone(&self) -> Cone {
@@ -55,6 +56,7 @@ impl Depth {
                 self.radius = one_of(field, value, &known, "texel-centre or nominal")?;
             }
             "slack" => self.slack = share(field, value)?,
+            "reach" => self.reach = number(field, value)?,
             _ => return Ok(false),
         }
         Ok(true)

@@ -87,18 +87,20 @@ impl RecipeError {
 /// |---|---|---|
 /// | `stored` | all | `first`, `second`, `back-face`, `normals` (back faces by interpolated normals), `midpoint`, `deep` |
 /// | `ratio`, `merge` | midpoint | part of the way above 0 to 1; share of the distance within which surfaces are one |
-/// | `epsilon`, `sub-samples` | deep | error bound from 0, below 1; samples along a texel's side, 1 to 8 |
+/// | `same` | midpoint | `depth`, `object`, `surface`: which fragments are one; `surface` with several `sub-samples` |
+/// | `epsilon` | deep | error bound from 0, below 1 |
+/// | `sub-samples` | all | samples along a texel's side, 1 to 8: deep maps average them (4 unless told, powers of 2), others keep the nearest surfaces over them (1; not `normals`) |
 /// | `pattern` | reeves87, woo92 | `jittered`, `uniform`, `gaussian`, `inside`, `warp`, `every`, `tent`, `centre`, `disc` |
 /// | `samples`, `min-samples` | reeves87, woo92 | counts from 1, the second at most the first |
 /// | `jitter` | reeves87, woo92 | part of a cell, 0 (a regular grid) to 1 |
 /// | `hard-cap` | reeves87, woo92 | `on`, `off`: whether `samples` is never exceeded |
-/// | `compare` | reeves87, woo92 | `float`, `integer` (whole units first: `jittered`, a bias of 0) |
+/// | `compare`, `unit` | reeves87, woo92 | `float`, `integer` (whole units first: `jittered`, a bias of 0); what is counted as one, map units |
 /// | `res-factor`, `min-size` | reeves87, woo92, wang-molnar94; the first of ordinary too | numbers from 0 |
 /// | `bias` | all | a number or, with `depth=constant`, a range `a..b`, then a unit: none or `w` world, `t` texels, `s` depth steps, `m` map units |
 /// | `spread` | `depth=constant` | `random`, `ramp` |
 /// | `depth` | reeves87, woo92, burley, fernando | `constant`, `plane`, `cone` |
 /// | `slope`, `radius` | `depth=cone` | a number from 0; `texel-centre`, `nominal` |
-/// | `slack` | `depth=plane`, wang-molnar94 | roundings by which the plane is moved, 0 to 1 |
+/// | `slack`, `reach` | `depth=plane`, wang-molnar94 | roundings by which the plane is moved, 0 to 1; most that it may leave the receiver's own depth, map units |
 /// | `nearby` | wang-molnar94 | `four`, `region`, `box3` .. `box9`; sets `res-factor` and `min-size` |
 /// | `pattern` | wang-molnar94 | `every`, `tent` |
 /// | `virtual` | wang-molnar94 | `mixed`, `always`, `never` |
@@ -106,10 +108,10 @@ impl RecipeError {
 /// | `backs` | wang-molnar94 | `shaded`, `dark` |
 /// | `min`, `max` | burley, fernando | radii, then `t` texels, `w` world units, `%` of the map; none is texels |
 /// | `light` | burley, fernando | radius of a disc light in world units (tangent of its angle if directional); instead of `min`, `max` |
-/// | `nearest` | burley, fernando | with `light`: no occluder is nearer to the light, world units |
+/// | `nearest` | burley, fernando | with `light`: no occluder is nearer to the light, world units; the near plane unless told |
 /// | `search`, `blur` | burley, fernando | numbers of taps from 1 |
 /// | `rotate`, `half-offset`, `rescue` | burley, fernando | `on`, `off` |
-/// | `falloff` | burley, fernando | `linear`, `smooth`, `flat` |
+/// | `falloff` | burley, fernando | `linear`, `smooth`, `square` (1 − .9·share²), `flat` (with an evenly spread search) |
 /// | `shape`, `opacity-shape` | burley, fernando | exponents above 0 |
 /// | `opacity`, `fade` | burley, fernando | `near..far`, each 0 to 1; world units above 0 |
 /// | `lookup` | williams78 | `nearest`, `bilinear`, `faithful` |
@@ -218,7 +220,7 @@ impl Method {
             Self::Reeves(_) => reeves::FIELDS,
             Self::WangMolnar(_) => conditional::FIELDS,
             Self::Burley(_) => soft::FIELDS,
-            Self::Ordinary(_) => "stored, ratio, merge, epsilon, sub-samples, bias or res-factor",
+            Self::Ordinary(_) => "stored, ratio, merge, same, epsilon, sub-samples, bias or res-factor",
         }
     }
 }
@@ -322,14 +324,19 @@ mod tests {
         let Method::Burley(found) = all.parse::<Recipe>().unwrap().method else { panic!("burley") };
         let soft = found.soft;
         let between = Softness::Between { min: Extent::World(1.0), max: Extent::Share(0.02) };
-        assert_eq!((soft.softness, soft.radius_gamma, soft.rescue), (between, 2.0, true));
+        assert_eq!((found.softness(), soft.radius_gamma, soft.rescue), (between, 2.0, true));
         assert_eq!((soft.search.num_samples, soft.blur.num_samples, soft.blur.rotate), (16, 64, false));
         assert_eq!(soft.opacity, Opacity { near: 0.9, far: 0.2, fade: 30.0, gamma: 0.5 });
         assert_eq!((found.depth.cone().base, found.depth.cone().radius), (0.1, Radius::Nominal));
         let light: Recipe = "burley,light=2,nearest=5,depth=plane".parse().unwrap();
         let Method::Burley(found) = light.method else { panic!("burley") };
-        assert_eq!(found.soft.softness, Softness::Light { radius: 2.0, nearest: 5.0 });
+        assert_eq!(found.softness(), Softness::Light { radius: 2.0, nearest: 5.0 });
+        assert_eq!("burley,depth=plane,nearest=5,light=2".parse(), Ok(light), "in any order");
         assert!(refused("burley,light=2,max=3").starts_with("max = "));
+        assert!(refused("burley,max=3,light=2").starts_with("max = "));
+        assert!(refused("burley,min=9,max=3").starts_with("min = "));
+        assert!(refused("burley,max=0.2").starts_with("min = "), "the preset's min is larger");
+        assert!(refused("reeves87,sub-samples=9").starts_with("sub-samples = "));
         assert!(refused("burley,nearest=3").starts_with("nearest = "));
         assert!(refused("burley,bias=1t").starts_with("bias = "));
         assert!(refused("burley,opacity=1").starts_with("opacity = "));

@@ -1,7 +1,7 @@
 //! Percentage-closer recipes: Reeves' and Woo's.
 
 use super::depth::{Choice, Depth};
-use super::values::{count, number, one_of, share, switch};
+use super::values::{count, number, one_of, positive, share, switch};
 use super::{RecipeError, Set, over};
 use crate::Map;
 use umbrage_plane::Bias;
@@ -10,7 +10,7 @@ use umbrage_sample::{
 };
 use umbrage_shadow::{Biased, IntegerFirst, Pcf, ReceiverDepth, Shadow};
 
-pub const FIELDS: &str = "stored, ratio, merge, epsilon, sub-samples, pattern, samples, min-samples, jitter, hard-cap, compare, res-factor, min-size, bias, spread, depth, slope, radius or slack";
+pub const FIELDS: &str = "stored, ratio, merge, same, epsilon, sub-samples, pattern, samples, min-samples, jitter, hard-cap, compare, unit, res-factor, min-size, bias, spread, depth, slope, radius, slack or reach";
 
 /// The named parts of a percentage-closer recipe.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +18,7 @@ pub struct Reeves {
     pub pattern: PatternName,
     pub depth: Depth,
     pub integer_first: bool,
+    pub unit: f32,
     /// Its own depth is not used.
     pub pcf: Pcf,
 }
@@ -51,7 +52,7 @@ impl Reeves {
     pub fn new(pcf: Pcf) -> Self {
         let depth = Depth::new(Choice::Constant, pcf.depth);
         let pcf = Pcf { depth: Biased::default(), ..pcf };
-        Self { pattern: PatternName::Jittered, depth, integer_first: false, pcf }
+        Self { pattern: PatternName::Jittered, depth, integer_first: false, unit: 1.0, pcf }
     }
 
     pub fn set(&mut self, field: &str, value: &str) -> Set {
@@ -69,6 +70,7 @@ impl Reeves {
             "compare" => {
                 self.integer_first = one_of(field, value, &[("float", false), ("integer", true)], "float or integer")?;
             }
+            "unit" => self.unit = positive(field, value)?,
             _ => return self.depth.set(field, value),
         }
         Ok(true)
@@ -94,7 +96,7 @@ impl Reeves {
     pub fn bind(self, map: Map) -> Box<dyn Shadow> {
         let Pcf { pattern, res_factor, min_size, .. } = self.pcf;
         if self.integer_first {
-            return over(IntegerFirst { pattern, res_factor, min_size, unit: 1.0 }, map);
+            return over(IntegerFirst { pattern, res_factor, min_size, unit: self.unit }, map);
         }
         match self.depth.choice {
             Choice::Constant => self.with_depth(self.depth.biased, map),

@@ -6,9 +6,9 @@ use super::{RecipeError, Set, over};
 use crate::Map;
 use umbrage_plane::Bias;
 use umbrage_sample::{Density, Disc};
-use umbrage_shadow::{Biased, Falloff, Opacity, ReceiverDepth, Shadow, Soft, Softness, presets};
+use umbrage_shadow::{Biased, Extent, Falloff, Opacity, ReceiverDepth, Shadow, Soft, Softness, presets};
 
-pub const FIELDS: &str = "stored, ratio, merge, epsilon, sub-samples, min, max, light, nearest, search, blur, rotate, half-offset, rescue, falloff, shape, opacity, opacity-shape, fade, bias, spread, depth, slope, radius or slack";
+pub const FIELDS: &str = "stored, ratio, merge, same, epsilon, sub-samples, min, max, light, nearest, search, blur, rotate, half-offset, rescue, falloff, shape, opacity, opacity-shape, fade, bias, spread, depth, slope, radius, slack or reach";
 
 /// The named parts of a soft recipe.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,11 +16,16 @@ pub struct Burley {
     pub depth: Depth,
     /// Its own depth is not used.
     pub soft: Soft,
+    /// Radii that are given.
+    min: Option<Extent>,
+    max: Option<Extent>,
+    light: Option<f32>,
+    nearest: Option<f32>,
 }
 
 impl Burley {
     pub fn cone() -> Self {
-        Self { depth: Depth::new(Choice::Cone, Biased::constant(Bias::ZERO)), soft: presets::burley() }
+        Self::new(Depth::new(Choice::Cone, Biased::constant(Bias::ZERO)), presets::burley())
     }
 
     pub fn fernando() -> Self {
@@ -28,26 +33,31 @@ impl Burley {
         let Soft { softness, search, blur, falloff, radius_gamma, opacity, rescue, depth } =
             presets::fernando(Bias::Texels(1.0));
         let soft = Soft { softness, search, blur, falloff, radius_gamma, opacity, rescue, ..presets::burley() };
-        Self { depth: Depth::new(Choice::Constant, depth), soft }
+        Self::new(Depth::new(Choice::Constant, depth), soft)
+    }
+
+    fn new(depth: Depth, soft: Soft) -> Self {
+        Self { depth, soft, min: None, max: None, light: None, nearest: None }
+    }
+
+    /// The radii as they are meant together.
+    pub fn softness(&self) -> Softness {
+        match (self.light, self.soft.softness) {
+            (Some(radius), _) => Softness::Light { radius, nearest: self.nearest.unwrap_or(0.0) },
+            (None, Softness::Between { min, max }) => {
+                Softness::Between { min: self.min.unwrap_or(min), max: self.max.unwrap_or(max) }
+            }
+            (None, known) => known,
+        }
     }
 
     pub fn set(&mut self, field: &str, value: &str) -> Set {
         let soft = &mut self.soft;
         match field {
-            "min" | "max" => {
-                let radius = extent(field, value)?;
-                let Softness::Between { min, max } = &mut soft.softness else {
-                    return Err(RecipeError::value(field, value, "no such field beside light"));
-                };
-                *(if field == "min" { min } else { max }) = radius;
-            }
-            "light" => soft.softness = Softness::Light { radius: number(field, value)?, nearest: 0.0 },
-            "nearest" => {
-                let Softness::Light { nearest, .. } = &mut soft.softness else {
-                    return Err(RecipeError::value(field, value, "light first"));
-                };
-                *nearest = positive(field, value)?;
-            }
+            "min" => self.min = Some(extent(field, value)?),
+            "max" => self.max = Some(extent(field, value)?),
+            "light" => self.light = Some(number(field, value)?),
+            "nearest" => self.nearest = Some(positive(field, value)?),
             "search" => soft.search.num_samples = count(field, value)?,
             "blur" => soft.blur.num_samples = count(field, value)?,
             "rotate" => each(soft, |disc| &mut disc.rotate, switch(field, value)?),
@@ -57,9 +67,10 @@ impl Burley {
                 let known = [
                     ("linear", (Falloff::Linear { rim: 0.1 }, Density::Centred)),
                     ("smooth", (Falloff::Smooth { rim: 0.1 }, Density::Centred)),
+                    ("square", (Falloff::Power { rim: 0.1, exponent: 2.0 }, Density::Centred)),
                     ("flat", (Falloff::Flat, Density::Uniform)),
                 ];
-                (soft.falloff, soft.search.density) = one_of(field, value, &known, "linear, smooth or flat")?;
+                (soft.falloff, soft.search.density) = one_of(field, value, &known, "linear, smooth, square or flat")?;
             }
             "shape" => soft.radius_gamma = positive(field, value)?,
             "opacity-shape" => soft.opacity.gamma = positive(field, value)?,
@@ -78,6 +89,24 @@ impl Burley {
 
     /// What only all fields together can show.
     pub fn check(&self) -> Result<(), RecipeError> {
+        if self.light.is_some() && (self.min.is_some() || self.max.is_some()) {
+            let field = if self.min.is_some() { "min" } else { "max" };
+            return Err(RecipeError::value(field, "given", "no such field beside light"));
+        }
+        if let (Some(nearest), None) = (self.nearest, self.light) {
+            return Err(RecipeError::value("nearest", &nearest.to_string(), "light too"));
+        }
+        if let Softness::Between { min, max } = self.softness() {
+            let larger = match (min, max) {
+                (Extent::Texels(min), Extent::Texels(max))
+                | (Extent::Share(min), Extent::Share(max))
+                | (Extent::World(min), Extent::World(max)) => min > max,
+                _ => false,
+            };
+            if larger {
+                return Err(RecipeError::value("min", &format!("{min:?}"), "at most max"));
+            }
+        }
         self.depth.check()
     }
 
@@ -90,7 +119,8 @@ impl Burley {
     }
 
     fn with_depth<D: ReceiverDepth + 'static>(self, depth: D, map: Map) -> Box<dyn Shadow> {
-        let Soft { softness, search, blur, falloff, radius_gamma, opacity, rescue, .. } = self.soft;
+        let Soft { search, blur, falloff, radius_gamma, opacity, rescue, .. } = self.soft;
+        let softness = self.softness();
         over(Soft { softness, search, blur, falloff, depth, radius_gamma, opacity, rescue }, map)
     }
 }

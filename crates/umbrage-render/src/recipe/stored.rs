@@ -2,8 +2,8 @@
 
 use super::values::{count, number, one_of, positive, share};
 use super::{RecipeError, Set};
-use crate::{Deep, Map, Soup, bake, bake_by_normals, bake_deep, bake_moments};
-use umbrage_depth::{BackFace, DepthRule, First, Midpoint, Second};
+use crate::{Deep, Map, Soup, bake, bake_by_normals, bake_deep, bake_moments, bake_multi};
+use umbrage_depth::{BackFace, DepthRule, First, Midpoint, Same, Second, Tiled};
 use umbrage_plane::View;
 use umbrage_raster::Cull;
 use umbrage_scene::Scene;
@@ -25,11 +25,13 @@ pub struct Stored {
     pub rule: Rule,
     pub midpoint: Midpoint,
     pub deep: Deep,
+    /// Samples along a texel's side of maps of one surface.
+    pub sub_samples: u32,
 }
 
 impl Stored {
     pub fn new(rule: Rule) -> Self {
-        Self { rule, midpoint: Midpoint::default(), deep: Deep::default() }
+        Self { rule, midpoint: Midpoint::default(), deep: Deep::default(), sub_samples: 1 }
     }
 
     pub fn set(&mut self, field: &str, value: &str) -> Set {
@@ -55,7 +57,17 @@ impl Stored {
                 let deep = number(field, value).ok().and_then(|epsilon| self.deep.with_epsilon(epsilon).ok());
                 self.deep = deep.ok_or_else(|| RecipeError::value(field, value, "a number from 0, below 1"))?;
             }
-            "sub-samples" => self.deep = self.deep.with_axis(count(field, value)?),
+            "sub-samples" => {
+                let axis = count(field, value)?;
+                if axis > 8 {
+                    return Err(RecipeError::value(field, value, "a whole number from 1 to 8"));
+                }
+                (self.sub_samples, self.deep) = (axis, self.deep.with_axis(axis));
+            }
+            "same" => {
+                let known = [("depth", Same::Depth), ("object", Same::Object), ("surface", Same::Surface)];
+                self.midpoint.same = one_of(field, value, &known, "depth, object or surface")?;
+            }
             _ => return Ok(false),
         }
         Ok(true)
@@ -63,24 +75,32 @@ impl Stored {
 
     /// `moments` are the scene at evenly spread times: deep maps hold their mean, and of rules that keep one surface each texel sees one of them.
     pub fn bake(&self, moments: &[&Scene], view: &View) -> Map {
+        if self.rule == Rule::Deep {
+            return bake_deep(view, moments, &self.deep).into();
+        }
+        match moments {
+            [scene] => self.flat(scene, view),
+            _ => bake_moments(view, moments, 0, |scene| self.flat(scene, view)),
+        }
+        .into()
+    }
+
+    /// One surface a texel.
+    fn flat(&self, scene: &Scene, view: &View) -> Tiled {
+        let soup = Soup::casters(scene, view);
         match self.rule {
-            Rule::Deep => bake_deep(view, moments, &self.deep).into(),
-            Rule::First => baked(moments, view, &First, Cull::None),
-            Rule::Second => baked(moments, view, &Second, Cull::None),
-            Rule::BackFace => baked(moments, view, &BackFace, Cull::Front),
-            Rule::Midpoint => baked(moments, view, &self.midpoint, Cull::None),
-            Rule::Normals => match moments {
-                [scene] => bake_by_normals(view, &Soup::casters(scene, view), &BackFace).map.into(),
-                _ => baked(moments, view, &BackFace, Cull::Front),
-            },
+            Rule::First | Rule::Deep => self.sampled(&soup, view, &First, Cull::None),
+            Rule::Second => self.sampled(&soup, view, &Second, Cull::None),
+            Rule::BackFace => self.sampled(&soup, view, &BackFace, Cull::Front),
+            Rule::Midpoint => self.sampled(&soup, view, &self.midpoint, Cull::None),
+            Rule::Normals => bake_by_normals(view, &soup, &BackFace).map,
         }
     }
-}
 
-fn baked<R: DepthRule>(moments: &[&Scene], view: &View, rule: &R, cull: Cull) -> Map {
-    match moments {
-        [scene] => bake(view, Soup::casters(scene, view).triangles(), rule, cull).map,
-        _ => bake_moments(view, moments, rule, 0),
+    /// As many samples a texel as are asked for, one where so many do not fit.
+    fn sampled<R: DepthRule>(&self, soup: &Soup, view: &View, rule: &R, cull: Cull) -> Tiled {
+        let many =
+            (self.sub_samples > 1).then(|| bake_multi(view, soup.triangles(), rule, cull, self.sub_samples).ok());
+        many.flatten().unwrap_or_else(|| bake(view, soup.triangles(), rule, cull)).map
     }
-    .into()
 }

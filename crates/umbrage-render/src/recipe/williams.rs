@@ -6,7 +6,7 @@ use umbrage_shadow::Williams;
 use umbrage_shadow::williams::{DitherLaw, Guard, Lookup};
 
 pub const FIELDS: &str =
-    "stored, ratio, merge, epsilon, sub-samples, bias, lookup, guard, dither, dither-law or dither-depth";
+    "stored, ratio, merge, same, epsilon, sub-samples, bias, lookup, guard, dither, dither-law or dither-depth";
 
 pub fn set(williams: &mut Williams, field: &str, value: &str) -> Set {
     match field {

@@ -65,7 +65,8 @@ pub fn sample_depth(
 ) -> f32 {
     let (mut sum, mut total) = (0.0, 0.0);
     for sample in samples.into_iter().filter(|sample| sample.depth < listing.compared(depth, sample.radius)) {
-        let weight = 1.0 - 0.9 * (sample.radius / search);
+        // A search without extent has its samples at its centre.
+        let weight = if search > 0.0 { 1.0 - 0.9 * (sample.radius / search) } else { 1.0 };
         sum += sample.depth * weight;
         total += weight;
     }
