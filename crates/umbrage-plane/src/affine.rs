@@ -161,6 +161,18 @@ impl DepthPlane {
         self.decode.depth(self.key.at(texel) as f32, texel)
     }
 
+    /// Depths along a row, a texel apart from `from` on, by forward differences: one evaluation, then an addition each (Wang & Molnar 1994;
+    /// WM94-9, D-4). Within the rounding of so many additions of [`DepthPlane::at`], which everything in Umbrage uses, because sums depend on
+    /// where they began. Endless.
+    pub fn row(&self, from: DVec2) -> impl Iterator<Item = f32> + '_ {
+        let start = self.key.at(from);
+        let keys = std::iter::successors(Some(start), |key| Some(key + self.key.dx));
+        keys.zip(0u32..).map(move |(key, step)| {
+            let place = DVec2::new(from.x + f64::from(step), from.y);
+            self.decode.depth(key as f32, place)
+        })
+    }
+
     /// Encloses the plane's depth over all positions inside the texels of `rect`. [`DepthRange::UNKNOWN`] for radial depth.
     pub fn bounds(&self, rect: TexelRect) -> DepthRange {
         if self.decode.kind == Kind::Radial || rect.is_empty() {

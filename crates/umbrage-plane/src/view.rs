@@ -302,6 +302,12 @@ impl View {
         self.eye_to_world.transform_point3(eye)
     }
 
+    /// A direction of this view's eye space in the world: for normals that are given in a camera's space (WM94-8). Normals of an object's own
+    /// space go through the inverse transpose of its placement.
+    pub fn direction_to_world(&self, eye: DVec3) -> DVec3 {
+        self.eye_to_world.transform_vector3(eye)
+    }
+
     /// The key of an axial distance: −1/ζ in perspective, ζ in an orthographic view; z_s in a view of [`Kind::Screen`], so that
     /// the integer depths of Williams are exact however far the narrow range between near and far is.
     #[inline(always)]

@@ -334,3 +334,35 @@ fn v45_v46_w78_24_planar_projection() {
         onto(DVec4::new(1.0, 2.0, 0.0, 0.0), DVec3::new(1.0, 2.0, 3.0)).abs_diff_eq(DVec3::new(0.0, 0.0, 3.0), 1e-12)
     );
 }
+
+#[test]
+fn wm94_9_forward_differences_are_direct_evaluation_over_sixteen_texels_in_every_kind() {
+    for kind in [Kind::Screen, Kind::Axial, Kind::Radial] {
+        let view = lamp(64).with_kind(kind);
+        let plane = view.receiver(&surface()).unwrap().plane(&view);
+        for y in 14..30 {
+            let from = DVec2::new(32.5, f64::from(y) + 0.5);
+            for (step, depth) in plane.row(from).take(16).enumerate() {
+                let direct = plane.at(from + DVec2::X * step as f64);
+                // 1e-6 of z_s, which is no larger than 1; of other depths the same share.
+                close(f64::from(depth), f64::from(direct), 1e-6 * f64::from(direct).max(1.0));
+            }
+        }
+    }
+    // Beyond the horizon the row stays at +∞, as the plane does.
+    let wall = SurfacePoint::at(Vec3::new(-2.0, 0.0, 0.0), DVec3::new(1.0, 0.05, 0.0).normalize().as_vec3());
+    let view = lamp(64);
+    let plane = view.receiver(&wall).unwrap().plane(&view);
+    assert_eq!(plane.row(DVec2::new(0.5, 32.5)).nth(60), Some(f32::INFINITY));
+}
+
+#[test]
+fn wm94_8_normals_of_a_camera_s_space_give_the_same_plane() {
+    let (eye, light) = (camera(), lamp(64));
+    let in_camera = eye.world_to_eye().transform_vector3(N.normalize());
+    let at = SurfacePoint { normal: eye.direction_to_world(in_camera).as_vec3(), ..surface() };
+    let (given, known) = (light.receiver(&at).unwrap(), light.receiver(&surface()).unwrap());
+    close(given.normal.distance(known.normal), 0.0, 1e-7);
+    let texel = DVec2::new(39.5, 21.5);
+    close(f64::from(given.plane(&light).at(texel)), f64::from(known.plane(&light).at(texel)), 1e-5);
+}

@@ -245,10 +245,8 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
         }
     }
     let mut made = Made::default();
-    let head: Vec<String> =
-        std::iter::once("method").chain(STAGES.iter().map(|stage| stage.0)).chain(["mean"]).map(String::from).collect();
     let faults: [(&str, Fault); 3] =
-        [("false shadow", |one| one.acne), ("leak", |one| one.leak), ("error", |one| one.rms)];
+        [("false shadow", |one| one.acne), ("leak", |one| one.leak), ("error, rms", |one| one.rms)];
     for (name, of) in faults {
         let line = |(method, row): (&Method, &[Judged; STAGES.len()])| {
             let values: Vec<f64> = row.iter().map(of).collect();
@@ -257,7 +255,8 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
             self::row(method.0, values.into_iter().chain([mean]))
         };
         let rows = METHODS.iter().zip(&found).map(line).collect();
-        made.tables.push(Table { name: name.into(), head: head.clone(), rows });
+        let head = std::iter::once(name).chain(STAGES.iter().map(|stage| stage.0)).chain(["mean"]);
+        made.tables.push(Table { name: name.into(), head: head.map(String::from).collect(), rows });
     }
     let names = STAGES.map(|stage| stage.0).join(", ");
     let methods = METHODS.map(|method| method.0).join(", ");
