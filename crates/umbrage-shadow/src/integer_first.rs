@@ -1,8 +1,8 @@
-use crate::share::by_rules;
-use crate::{Filter, Probe};
-use fearless_simd::Simd;
+use crate::share::share_by;
+use crate::{Biased, Filter, Probe};
+use fearless_simd::{Simd, f32x16};
 use umbrage_depth::DepthMap;
-use umbrage_plane::{Receiver, TexelRect};
+use umbrage_plane::{Bias, Receiver};
 use umbrage_sample::{Jittered, Key, Pattern};
 
 /// Whole units of a depth: what Woo compares first (Woo 1992; W92-7). Rounded down and saturated, so that it never decreases; NaN is 0.
@@ -24,7 +24,7 @@ pub fn behind(receiver: f32, stored: f32, unit: f32) -> (bool, bool) {
 /// (Woo 1992; W92-5, W92-7). Meant for midpoint maps.
 ///
 /// Answers as [`Pcf`](crate::Pcf) with a bias of 0 does, bit for bit; a [`Probe`] counts how often whole units settled it. On today's machines it
-/// saves nothing. A deep map answers by its nearest surfaces.
+/// saves nothing. Deep maps answer by what passes, and count no comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IntegerFirst<P = Jittered> {
     /// Where to look.
@@ -56,28 +56,16 @@ impl<P: Pattern> Filter for IntegerFirst<P> {
     ) -> f32 {
         let view = map.view();
         let region = receiver.footprint.scaled(self.res_factor, self.min_size, view.size().as_vec2() * 0.25);
-        let rect = TexelRect::around(region.centre, region.half);
-        let inside = view.holds(region.centre, region.half);
-        let (mut hits, mut count, mut looked) = (0.0, 0.0, 0);
-        self.pattern.taps(simd, &region, key, |taps| {
-            let stored = map.look(simd, rect, taps.x, taps.y);
-            let mut nearer = 0;
-            for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
-                let (dark, conclusive) = behind(receiver.depth, stored[i], self.unit);
+        let own = Biased::constant(Bias::ZERO);
+        let by_units = |compared: f32x16<S>, stored: f32x16<S>, mask: u32| {
+            (0..16).filter(|i| mask >> i & 1 == 1).fold(0, |nearer, i| {
+                let (dark, conclusive) = behind(compared[i], stored[i], self.unit);
                 probe.compared(conclusive);
-                nearer |= u32::from(dark) << i;
-            }
-            if !inside {
-                nearer = by_rules(view, taps, nearer);
-            }
-            for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
-                let weight = if P::WEIGHTED { taps.weight[i] } else { 1.0 };
-                count += weight;
-                hits += if nearer >> i & 1 == 1 { weight } else { 0.0 };
-            }
-            looked += taps.mask.count_ones();
-        });
-        probe.looked(looked);
-        if count > 0.0 { hits / count } else { 0.0 }
+                nearer | u32::from(dark) << i
+            })
+        };
+        let (dark, texels) = share_by(simd, map, receiver, &region, (&self.pattern, &own), key, by_units);
+        probe.looked(texels);
+        dark
     }
 }

@@ -1,6 +1,6 @@
 use crate::ReceiverDepth;
 use crate::depth::lane;
-use fearless_simd::{Simd, prelude::*};
+use fearless_simd::{Simd, f32x16, prelude::*};
 use umbrage_depth::DepthMap;
 use umbrage_plane::{Footprint, Receiver, TexelRect, Verdict, View, floor_texel};
 use umbrage_sample::{Key, Pattern, Taps};
@@ -15,8 +15,25 @@ pub(crate) fn share<S: Simd, M: DepthMap, P: Pattern, D: ReceiverDepth>(
     map: &M,
     receiver: &Receiver,
     region: &Footprint,
+    parts: (&P, &D),
+    key: Key,
+) -> (f32, u32) {
+    share_by(simd, map, receiver, region, parts, key, |compared, stored, _| {
+        compared.simd_gt(stored).to_bitmask() as u32
+    })
+}
+
+/// [`share`] with another way to compare: `behind` tells, of sixteen compared and stored depths and the mask of those that count, which are
+/// behind what is stored. Deep maps are not asked by it.
+#[inline(always)]
+pub(crate) fn share_by<S: Simd, M: DepthMap, P: Pattern, D: ReceiverDepth>(
+    simd: S,
+    map: &M,
+    receiver: &Receiver,
+    region: &Footprint,
     (pattern, depth): (&P, &D),
     key: Key,
+    mut behind: impl FnMut(f32x16<S>, f32x16<S>, u32) -> u32,
 ) -> (f32, u32) {
     let view = map.view();
     let rect = TexelRect::around(region.centre, region.half);
@@ -35,7 +52,7 @@ pub(crate) fn share<S: Simd, M: DepthMap, P: Pattern, D: ReceiverDepth>(
             }
             return;
         }
-        let mut nearer = compared.simd_gt(map.look(simd, rect, taps.x, taps.y)).to_bitmask() as u32 & taps.mask;
+        let mut nearer = behind(compared, map.look(simd, rect, taps.x, taps.y), taps.mask) & taps.mask;
         if !inside {
             nearer = by_rules(view, taps, nearer);
         }
@@ -55,7 +72,7 @@ pub(crate) fn share<S: Simd, M: DepthMap, P: Pattern, D: ReceiverDepth>(
 
 /// The hits of a batch of taps with those outside the map or the cone answered by the view's rules (spec C-10, W92-6).
 #[inline(always)]
-pub(crate) fn by_rules<S: Simd>(view: &View, taps: &Taps<S>, mut nearer: u32) -> u32 {
+fn by_rules<S: Simd>(view: &View, taps: &Taps<S>, mut nearer: u32) -> u32 {
     for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
         match by_rule(view, taps, i) {
             Some(dark) if dark > 0.0 => nearer |= 1 << i,

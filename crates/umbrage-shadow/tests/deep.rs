@@ -135,7 +135,7 @@ fn t_19_occluders_are_found_by_the_nearest_surface_not_by_the_first_opaque_one()
     assert!(reaches(5.5) > 0.0 && reaches(5.0) > 0.02, "{} {}", reaches(5.5), reaches(5.0));
     assert_eq!(reaches(7.0), 0.0);
     let plain = ask(&IntegerFirst::default(), &v56(0), &at(&lamp(), 3.0, Vec2::splat(16.3), 1.0)).0;
-    assert_eq!(plain, 1.0, "whole units first know the nearest surface alone");
+    assert!((plain - 0.4).abs() < 1e-6, "whole units first answer by what passes too: {plain}");
 }
 
 #[test]

@@ -316,7 +316,7 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
     }
     made.measures = measures;
     made.note = "False shadow is looked for on lit surfaces that face the light, leaks on shadowed ones, both off truth's edges; the error is \
-                 that of every wholly covered pixel. Midpoints in Burley's cone, which nobody published, come through all twelve scenes. Soft methods are judged against the hard truth of a point light. Maps are 512², a pixel is asked once."
+                 that of every wholly covered pixel. Midpoints in Burley's cone are a mix that nobody published. Soft methods are judged against the hard truth of a point light. Maps are 512², a pixel is asked once."
         .into();
     Ok(made)
 }

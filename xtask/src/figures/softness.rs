@@ -111,6 +111,11 @@ fn softness(cx: &Context) -> anyhow::Result<Made> {
             for (radius, found) in RADII.iter().zip(&found) {
                 made.measures.push(near(&format!("lamp of radius {radius}: width over the area light's"), found));
             }
+            // The recipe as one types it first, which searches from the light's near plane on.
+            let (edge, exact) = &lamps[3];
+            let plain = measure(cx, &set, &format!("burley,light={}", RADII[3]), edge, exact)?;
+            let name = format!("lamp of radius {}, nothing else told: width over the area light's", RADII[3]);
+            made.measures.push(near(&name, &plain));
             made.measures.push(Measure::info(
                 "lamp: largest rms error across the edge",
                 found.iter().map(|f| f.error).fold(0.0, f64::max),
