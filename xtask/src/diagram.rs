@@ -1,6 +1,6 @@
 //! Diagrams of slices through a scene as SVG text: shapes in world coordinates, one unit as long across as up, y upward.
 //!
-//! Inks and themes are those of [`plot`](crate::plot): `currentColor` and the series' custom properties.
+//! Inks and themes are those of [`plot`]: `currentColor` and the series' custom properties.
 
 use crate::plot::{self, pixel};
 use crate::text::escape;
