@@ -13,8 +13,8 @@ use umbrage_sample::{
 use umbrage_scene::gallery;
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
 use umbrage_shadow::{
-    Biased, Conditional, Cone, Extent, Filter, IntegerFirst, OnPlane, Opacity, Ordinary, Pcf, Radius, ReceiverDepth,
-    ShadowMap, Soft, Softness, Williams, presets,
+    Biased, Conditional, Cone, Extent, Filter, IntegerFirst, OnPlane, Opacity, Ordinary, Pcf, Query, Radius,
+    ReceiverDepth, ShadowMap, Soft, Softness, Williams, presets,
 };
 
 const KEY: Key = Key::new(11, 0, 0);
@@ -54,7 +54,7 @@ fn ask<F: Filter, M: DepthMap>(filter: &F, map: &M, receiver: &Receiver, key: Ke
 }
 
 fn ask_at<F: Filter, M: DepthMap>(level: Level, filter: &F, map: &M, receiver: &Receiver, key: Key) -> f32 {
-    dispatch!(level, simd => filter.shadow(simd, map, receiver, key, &mut ()))
+    dispatch!(level, simd => Query::new(simd, map, receiver, key, &mut ()).ask(filter))
 }
 
 /// Percentage-closer filtering one tap at a time, without ranges, tiles or lanes.

@@ -1,31 +1,16 @@
-use crate::{DepthMap, MapError, rows};
+use crate::translucent::transmittance;
+use crate::{DepthMap, MapError, Step, Translucent, rows};
 use glam::{DVec3, IVec2, Vec3};
-use std::sync::Arc;
+use std::borrow::Cow;
 use umbrage_plane::{TexelRect, View};
 
-/// One surface of a texel of a [`DeepMap`], and what of the light is left behind it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
-    /// Its depth, in the kind of the map's view.
-    pub depth: f32,
-    /// Share of the light that passes everything up to and with this surface, linear RGB in 0..=1.
-    pub passes: Vec3,
-}
-
-/// Several surfaces a texel, each letting part of the light through: a deep shadow map (Lokovic & Veach 2000, as Burley 2006 uses it; B06-11,
-/// EXT-3).
+/// Several surfaces per texel, each letting part of the light through: a deep shadow map (Lokovic & Veach 2000, as Burley 2006 uses
+/// it; B06-11, EXT-3).
 ///
-/// A texel's transmittance is 1 down to its first surface and steps down at each: a surface at a depth does not shadow that depth (C-7, V56).
-/// As a [`DepthMap`] it answers with the nearest surface, opaque or not (T-19), and with what [passes](DepthMap::passes); clones share their texels.
+/// A texel's transmittance is 1 down to its first surface and steps down at each: a surface at a depth does not shadow that depth
+/// (C-7, V56). As a [`DepthMap`] it answers with the nearest surface, opaque or not (T-19); what passes is its [`Translucent`] half.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DeepMap {
-    texels: Arc<Texels>,
-    /// The one channel that it stands for; all of them without.
-    channel: Option<usize>,
-}
-
-#[derive(Debug, PartialEq)]
-struct Texels {
     view: View,
     epsilon: f32,
     /// Where each texel's steps begin, row by row; one entry more than texels.
@@ -72,48 +57,29 @@ impl DeepMap {
         if found != wanted {
             return Err(MapError::Length { width: size.x, height: size.y, found });
         }
-        let texels = Arc::new(Texels { view, epsilon, starts, steps: all, grey });
-        Ok(Self { texels, channel: None })
+        Ok(Self { view, epsilon, starts, steps: all, grey })
     }
 
     /// How far a transmittance may stand from the one it was made from, in every channel and at every depth.
     pub fn epsilon(&self) -> f32 {
-        self.texels.epsilon
+        self.epsilon
     }
 
     /// The surfaces of a texel, nearest first; none outside the map.
     #[inline(always)]
     pub fn steps(&self, texel: IVec2) -> &[Step] {
-        let rect = TexelRect::of_size(self.texels.view.size());
+        let rect = TexelRect::of_size(self.view.size());
         if !rect.contains(texel) {
             return &[];
         }
         let index = texel.y as usize * rect.size().x as usize + texel.x as usize;
-        &self.texels.steps[self.texels.starts[index]..self.texels.starts[index + 1]]
+        &self.steps[self.starts[index]..self.starts[index + 1]]
     }
-
-    /// Share of the light that passes all surfaces of a texel nearer than `depth`, linear RGB; all of it for NaN.
-    #[inline(always)]
-    pub fn transmittance(&self, texel: IVec2, depth: f32) -> Vec3 {
-        transmittance(self.steps(texel), depth)
-    }
-}
-
-/// What passes the steps nearer than `depth`.
-#[inline(always)]
-fn transmittance(steps: &[Step], depth: f32) -> Vec3 {
-    let nearer = steps.partition_point(|step| step.depth < depth);
-    if nearer == 0 { Vec3::ONE } else { steps[nearer - 1].passes }
 }
 
 impl DepthMap for DeepMap {
-    #[inline(always)]
-    fn is_deep(&self) -> bool {
-        true
-    }
-
     fn view(&self) -> &View {
-        &self.texels.view
+        &self.view
     }
 
     #[inline(always)]
@@ -121,25 +87,30 @@ impl DepthMap for DeepMap {
         self.steps(texel).first().map_or(f32::INFINITY, |step| step.depth)
     }
 
-    /// The mean over red, green and blue, or the one channel that this map stands for.
     #[inline(always)]
-    fn passes(&self, texel: IVec2, depth: f32) -> f32 {
-        let passes = self.transmittance(texel, depth);
-        match self.channel {
-            Some(channel) => passes[channel],
-            None if self.texels.grey => passes.x,
-            None => passes.element_sum() * (1.0 / 3.0),
-        }
-    }
-
-    fn colours(&self) -> Option<[Self; 3]> {
-        let one = |channel| Self { texels: Arc::clone(&self.texels), channel: Some(channel) };
-        (!self.texels.grey).then(|| [one(0), one(1), one(2)])
+    fn translucent(&self) -> Option<&dyn Translucent> {
+        Some(self)
     }
 
     /// 16 a surface: its depth and three transmittances. The table that finds a texel's surfaces, 8 a texel, is left out as everywhere.
     fn bytes(&self) -> usize {
-        size_of_val(self.texels.steps.as_slice())
+        size_of_val(self.steps.as_slice())
+    }
+}
+
+impl Translucent for DeepMap {
+    #[inline(always)]
+    fn steps(&self, texel: IVec2) -> Cow<'_, [Step]> {
+        Cow::Borrowed(self.steps(texel))
+    }
+
+    fn is_grey(&self) -> bool {
+        self.grey
+    }
+
+    #[inline(always)]
+    fn transmittance(&self, texel: IVec2, depth: f32) -> Vec3 {
+        transmittance(self.steps(texel), depth)
     }
 }
 

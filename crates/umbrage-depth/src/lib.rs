@@ -15,7 +15,9 @@
 //! | [`Raw`] | every texel |
 //! | [`Bbox`] | the rectangle around all surfaces |
 //! | [`Tiled`] | 32×32 tiles that hold a surface, with their nearest and farthest depth |
-//! | [`DeepMap`] | several surfaces a texel, each letting part of the light through |
+//! | [`DeepMap`] | several surfaces per texel, each letting part of the light through |
+//!
+//! [`Map`] is any of them, shared: the one type that the code above a filter knows. A [`Translucent`] is what a deep map lets through.
 //!
 //! [`TagMap`] keeps objects' ids instead of depths, the baseline of Hourcade & Nicolas.
 //!
@@ -41,6 +43,7 @@ mod bandlimit;
 mod bbox;
 mod deep;
 mod first;
+mod kept;
 mod map;
 mod midpoint;
 mod quantise;
@@ -50,12 +53,14 @@ mod rule;
 mod second;
 mod tags;
 mod tiled;
+mod translucent;
 
 pub use back_face::BackFace;
 pub use bandlimit::bandlimit;
 pub use bbox::Bbox;
-pub use deep::{DeepMap, Step, compress};
+pub use deep::{DeepMap, compress};
 pub use first::First;
+pub use kept::{Map, Storage, StorageError};
 pub use map::DepthMap;
 pub use midpoint::{Midpoint, MidpointCell, Same};
 pub use quantise::{quantise, quantum};
@@ -64,3 +69,4 @@ pub use rule::DepthRule;
 pub use second::Second;
 pub use tags::TagMap;
 pub use tiled::{TILE, Tile, Tiled};
+pub use translucent::{Step, Translucent};

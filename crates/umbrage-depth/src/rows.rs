@@ -31,7 +31,14 @@ pub(crate) fn look<S: Simd>(simd: S, depths: &[f32], rect: TexelRect, x: f32x16<
     let row: u32x16<S> = (floor_texel(simd, y) - rect.min.y).bitcast();
     let inside = column.simd_lt(u32x16::splat(simd, size.x)) & row.simd_lt(u32x16::splat(simd, size.y));
     let index = inside.select(row * size.x + column, u32x16::splat(simd, u32::MAX));
-    f32x16::load_array(simd, std::array::from_fn(|i| depths.get(index[i] as usize).copied().unwrap_or(f32::INFINITY)))
+    // A loop, because a closure would be a function of its own, compiled without the machine's instructions.
+    let mut found = [f32::INFINITY; 16];
+    for i in 0..16 {
+        if let Some(&depth) = depths.get(index[i] as usize) {
+            found[i] = depth;
+        }
+    }
+    f32x16::load_array(simd, found)
 }
 
 /// The depths of `rect`, row by row.

@@ -146,11 +146,13 @@ impl DepthMap for Tiled {
         let tile = (row >> SHIFT) * self.grid.x + (column >> SHIFT);
         let tile = inside.select(tile, u32x16::splat(simd, u32::MAX));
         // The mask of AREA − 1 is of no effect but to show that no index can be out of bounds.
-        let depth = |i: usize| match self.tiles.get(tile[i] as usize) {
-            Some(Some(tile)) => tile.depths[place[i] as usize & (AREA - 1)],
-            _ => f32::INFINITY,
-        };
-        f32x16::load_array(simd, std::array::from_fn(depth))
+        let mut found = [f32::INFINITY; 16];
+        for i in 0..16 {
+            if let Some(Some(tile)) = self.tiles.get(tile[i] as usize) {
+                found[i] = tile.depths[place[i] as usize & (AREA - 1)];
+            }
+        }
+        f32x16::load_array(simd, found)
     }
 
     /// The union over the tiles that `rect` touches; [`DepthRange::UNKNOWN`] when they are more than 64.

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, IVec2, UVec2, Vec3};
 use proptest::prelude::*;
-use umbrage_depth::{DeepMap, DepthMap, MapError, Step, TagMap, compress};
+use umbrage_depth::{DeepMap, DepthMap, MapError, Step, TagMap, Translucent, compress};
 use umbrage_plane::{View, mix32};
 
 /// Random numbers of one texel, by two indices.
@@ -47,22 +47,21 @@ fn v56_b06_11_a_surface_darkens_what_is_behind_it_and_the_nearest_stands_for_the
     let map = one(grey(&[(2.0, 0.6), (5.0, 0.0)])).unwrap();
     for (depth, light) in [(1.0, 1.0), (2.0, 1.0), (2.1, 0.6), (5.0, 0.6), (5.1, 0.0), (1e9, 0.0), (f32::INFINITY, 0.0)]
     {
-        assert_eq!(map.passes(IVec2::ZERO, depth), light, "at {depth}");
         assert_eq!(map.transmittance(IVec2::ZERO, depth), Vec3::splat(light), "at {depth}");
     }
     assert_eq!(map.depth(IVec2::ZERO), 2.0, "the nearest, not the first opaque (T-19)");
-    assert_eq!((map.passes(IVec2::new(1, 0), 9.0), map.depth(IVec2::NEG_ONE)), (1.0, f32::INFINITY), "outside");
-    assert!(map.is_deep() && map.colours().is_none());
+    let outside = (map.transmittance(IVec2::new(1, 0), 9.0), map.depth(IVec2::NEG_ONE));
+    assert_eq!(outside, (Vec3::ONE, f32::INFINITY), "outside");
+    assert!(map.translucent().is_some_and(Translucent::is_grey));
     assert_eq!(map.bytes(), 32);
 }
 
 #[test]
-fn ext_3_colours_are_three_maps_that_share_their_texels() {
+fn ext_3_colours_pass_by_channel() {
     let red = vec![Step { depth: 1.0, passes: Vec3::new(0.9, 0.3, 0.0) }];
     let map = one(red).unwrap();
-    assert!((map.passes(IVec2::ZERO, 2.0) - 0.4).abs() < 1e-6);
-    let light = map.colours().unwrap().map(|channel| channel.passes(IVec2::ZERO, 2.0));
-    assert_eq!(light, [0.9, 0.3, 0.0]);
+    assert_eq!(map.transmittance(IVec2::ZERO, 2.0), Vec3::new(0.9, 0.3, 0.0));
+    assert!(map.translucent().is_some_and(|translucent| !translucent.is_grey()));
 }
 
 #[test]

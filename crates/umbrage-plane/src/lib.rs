@@ -36,6 +36,9 @@ mod sampling;
 mod simd;
 mod view;
 
+#[doc(hidden)]
+pub use fearless_simd;
+
 pub use affine::{Affine, Decode, DepthPlane, DepthRange, Facet, Facing, Kind};
 pub use around::{Sectors, cube_face, cube_views, sector_views};
 pub use footprint::Footprint;

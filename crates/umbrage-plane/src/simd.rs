@@ -10,3 +10,44 @@ pub fn floor_texel<S: Simd>(simd: S, x: f32x16<S>) -> i32x16<S> {
     let clamped = x.max(f32x16::splat(simd, -FAR)).min(f32x16::splat(simd, FAR));
     clamped.floor().to_int()
 }
+
+/// Runs an expression compiled for the machine's instructions, with a [`Simd`] token that names them: AVX2 on an x86 processor that
+/// has it, otherwise what the target always has.
+///
+/// ```
+/// use umbrage_plane::{floor_texel, vectorized};
+/// use fearless_simd::{SimdBase, f32x16};
+///
+/// let first = vectorized!(simd => floor_texel(simd, f32x16::splat(simd, 2.5))[0]);
+/// assert_eq!(first, 2);
+/// ```
+///
+/// Two instruction sets, not all that there are, because every filter is compiled once for each: a third, AVX-512, made
+/// look-ups no faster than the noise of measuring them, and SSE4.2 alone is a processor of before 2013.
+#[macro_export]
+macro_rules! vectorized {
+    ($simd:pat => $body:expr) => {{
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        let answer = match $crate::fearless_simd::Level::new().as_avx2() {
+            Some(token) => $crate::vectorized!(@with token, $simd => $body),
+            None => $crate::vectorized!(@baseline $simd => $body),
+        };
+        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+        let answer = $crate::fearless_simd::dispatch!($crate::fearless_simd::Level::new(), $simd => $body);
+        answer
+    }};
+    (@with $token:ident, $simd:pat => $body:expr) => {
+        $crate::fearless_simd::Simd::vectorize(
+            $token,
+            #[inline(always)]
+            || {
+                let $simd = $token;
+                $body
+            },
+        )
+    };
+    (@baseline $simd:pat => $body:expr) => {{
+        let token = $crate::fearless_simd::Level::baseline().as_sse2().expect("every x86 target that this crate runs on has SSE2");
+        $crate::vectorized!(@with token, $simd => $body)
+    }};
+}

@@ -23,7 +23,6 @@
 mod camera;
 mod deep;
 mod lights;
-mod map;
 mod moments;
 mod normals;
 mod pass1;
@@ -37,12 +36,12 @@ mod tags;
 
 pub use deep::{Deep, bake_deep};
 pub use lights::{bind_lights, light_maps};
-pub use map::Map;
 pub use moments::bake_moments;
 pub use normals::bake_by_normals;
 pub use pass1::{Baked, advised_map_sizes, bake, bake_multi};
 pub use picture::{Frame, NOTHING, Picture, picture};
 pub use planar::{Ground, Planar};
-pub use recipe::{Recipe, RecipeError, Storage, bind};
+pub use recipe::{Recipe, RecipeError, bind};
 pub use soup::Soup;
 pub use tags::bake_tags;
+pub use umbrage_depth::{Map, Storage};

@@ -1,4 +1,5 @@
-use crate::{Map, Recipe, RecipeError, Storage};
+use crate::{Recipe, RecipeError};
+use umbrage_depth::{Map, Storage};
 use umbrage_scene::{Light, Scene};
 use umbrage_shadow::{Shadow, Unshadowed};
 

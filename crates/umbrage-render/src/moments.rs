@@ -6,8 +6,8 @@ use umbrage_scene::Scene;
 /// map blurs what moves, with noise.
 ///
 /// `moments` are the scene at evenly spread times, each made into a map of `view` by `bake`; none gives an empty map.
-pub fn bake_moments(view: &View, moments: &[&Scene], seed: u32, bake: impl Fn(&Scene) -> Tiled) -> Tiled {
-    let maps: Vec<Tiled> = moments.iter().map(|scene| bake(scene)).collect();
+pub fn bake_moments<M: DepthMap>(view: &View, moments: &[&Scene], seed: u32, bake: impl Fn(&Scene) -> M) -> Tiled {
+    let maps: Vec<M> = moments.iter().map(|scene| bake(scene)).collect();
     let moment = |texel| {
         // Of its own seed: the view's samples may be jittered by the same one, and time must not go with place.
         let bits = Sampling::Jittered { seed: mix32(seed ^ 0x71E5) }.offset_256(texel);

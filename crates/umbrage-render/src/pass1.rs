@@ -1,5 +1,6 @@
 use glam::{DVec2, IVec2, UVec2};
 use rayon::prelude::*;
+use std::sync::Arc;
 use umbrage_depth::{DepthRule, Tile, Tiled};
 use umbrage_plane::{Facet, Facing, TexelRect, View, ViewError};
 use umbrage_raster::{Bins, Coverage, Cull, Stats, TILE, Triangle};
@@ -7,8 +8,8 @@ use umbrage_raster::{Bins, Coverage, Cull, Stats, TILE, Triangle};
 /// A depth map, and what became of the triangles.
 #[derive(Clone, Debug)]
 pub struct Baked {
-    /// The map in its native form.
-    pub map: Tiled,
+    /// The map in its native form, ready to be shared.
+    pub map: Arc<Tiled>,
     /// What the rasteriser did with the triangles.
     pub stats: Stats,
     /// Texels covered, counted once per facet: the fragments that were offered to the rule in one pass.
@@ -76,7 +77,8 @@ impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
                 (cells.and_then(|cells| self.resolve(&cells, tile)), fragments)
             })
             .unzip();
-        Baked { map: Tiled::from_tiles(*self.view, made), stats: bins.stats(), fragments: fragments.iter().sum() }
+        let map = Arc::new(Tiled::from_tiles(*self.view, made));
+        Baked { map, stats: bins.stats(), fragments: fragments.iter().sum() }
     }
 
     /// A tile's cells after all fragments, `None` where there were none, and the number of fragments.

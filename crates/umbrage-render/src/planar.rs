@@ -1,5 +1,6 @@
 use crate::{Soup, bake};
 use glam::{DVec2, DVec3, DVec4, UVec2, Vec3};
+use std::sync::Arc;
 use umbrage_depth::{DepthMap, First, Tiled};
 use umbrage_plane::{SurfacePoint, View, ViewError, planar_shadow};
 use umbrage_raster::{Cull, Triangle};
@@ -24,7 +25,7 @@ pub struct Ground {
 /// between them and the light: not other objects, not curved receivers.
 pub struct Planar {
     /// Looks down on the plane; a finite depth is shadow.
-    mask: Tiled,
+    mask: Arc<Tiled>,
     ground: Ground,
 }
 

@@ -1,6 +1,7 @@
 //! Williams' post-process: points of a finished picture through one matrix, and the stages behind the comparison.
 
 use glam::{DVec3, UVec2, Vec3};
+use std::sync::Arc;
 use umbrage_depth::{First, Raw, Tiled};
 use umbrage_plane::{Bias, Kind, Rules, View};
 use umbrage_raster::Cull;
@@ -21,7 +22,7 @@ fn scene(pixels: u32) -> Scene {
     scene
 }
 
-fn light(scene: &Scene) -> ShadowMap<Williams, Tiled> {
+fn light(scene: &Scene) -> ShadowMap<Williams, Arc<Tiled>> {
     let view = &scene.lights[0].view;
     ShadowMap { filter: PLAIN, map: bake(view, Soup::casters(scene, view).triangles(), &First, Cull::None).map }
 }

@@ -50,6 +50,16 @@ pub fn hammersley(index: u32, count: u32) -> Vec2 {
     Vec2::new(index as f32 / count as f32, radical_inverse(index))
 }
 
+/// [`radical_inverse`] of sixteen consecutive numbers.
+#[inline(always)]
+pub fn radical_inverses<S: Simd>(simd: S, first: u32) -> f32x16<S> {
+    let mut inverses = [0.0; 16];
+    for (inverse, index) in inverses.iter_mut().zip(first..) {
+        *inverse = radical_inverse(index);
+    }
+    f32x16::load_array(simd, inverses)
+}
+
 impl Pattern for Disc {
     #[inline(always)]
     fn taps<S: Simd>(&self, simd: S, region: &Footprint, key: Key, mut each: impl FnMut(&Taps<S>)) {
@@ -59,7 +69,7 @@ impl Pattern for Disc {
         let lift = if self.half_offset { 0.5 / n as f32 } else { 0.0 };
         for batch in batches(n) {
             let (cos, sin) = turned(simd, indices(simd, batch.0) / n as f32 + start);
-            let y = f32x16::load_array(simd, std::array::from_fn(|i| radical_inverse(batch.0 + i as u32))) + lift;
+            let y = radical_inverses(simd, batch.0) + lift;
             let radius = match self.density {
                 Density::Uniform => y.sqrt(),
                 Density::Centred => y,

@@ -46,7 +46,8 @@ impl Area {
 /// The indices of sixteen consecutive taps, as floats. Exact below 2²⁴.
 #[inline(always)]
 pub(crate) fn indices<S: Simd>(simd: S, first: u32) -> f32x16<S> {
-    f32x16::load_array(simd, std::array::from_fn(|i| i as f32)) + first as f32
+    const FIRST: [f32; 16] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0];
+    f32x16::load_array(simd, FIRST) + first as f32
 }
 
 /// `total` taps in batches of sixteen: the first index of each, and the mask of those that exist.

@@ -56,7 +56,10 @@ impl Pattern for InsideQuadReject {
 }
 
 impl Pattern for InsideQuadWarp {
-    const WEIGHTED: bool = true;
+    #[inline(always)]
+    fn weighted(&self) -> bool {
+        true
+    }
 
     #[inline(always)]
     fn taps<S: Simd>(&self, simd: S, region: &Footprint, key: Key, mut each: impl FnMut(&Taps<S>)) {

@@ -52,7 +52,7 @@ impl Key {
     /// [`Key::unit`] of sixteen consecutive samples, bit for bit.
     #[inline(always)]
     pub fn unit_lanes<S: Simd>(self, simd: S, first: u32, dim: u32) -> f32x16<S> {
-        let lane: u32x16<S> = u32x16::load_array(simd, std::array::from_fn(|i| i as u32));
+        let lane: u32x16<S> = u32x16::load_array(simd, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15]);
         let index = (lane + first) * DIMENSIONS + dim;
         let mut bits = index * GOLDEN + self.state;
         bits ^= bits >> 16;

@@ -44,7 +44,7 @@ mod tent;
 mod uniform;
 
 pub use centre::Centre;
-pub use disc::{Density, Disc, hammersley, radical_inverse};
+pub use disc::{Density, Disc, hammersley, radical_inverse, radical_inverses};
 pub use every_texel::EveryTexel;
 pub use gaussian::Gaussian;
 pub use inside_quad::{InsideQuadReject, InsideQuadWarp};

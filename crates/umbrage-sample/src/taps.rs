@@ -1,7 +1,7 @@
 use crate::Key;
-use fearless_simd::{Level, Simd, dispatch, f32x16};
+use fearless_simd::{Simd, f32x16};
 use glam::Vec2;
-use umbrage_plane::Footprint;
+use umbrage_plane::{Footprint, vectorized};
 
 /// Up to sixteen sample positions of one region.
 pub struct Taps<S: Simd> {
@@ -15,8 +15,16 @@ pub struct Taps<S: Simd> {
     pub mask: u32,
     /// Index of the first tap within its region.
     pub first: u32,
-    /// Weight of each tap, ≥ 0; only read of patterns with [`Pattern::WEIGHTED`], 1 of all others.
+    /// Weight of each tap, ≥ 0; 1 for patterns that are not [weighted](Pattern::weighted).
     pub weight: f32x16<S>,
+}
+
+impl<S: Simd> Taps<S> {
+    /// One of the taps, 0 to 15.
+    #[inline(always)]
+    pub fn tap(&self, i: usize) -> Tap {
+        Tap { at: Vec2::new(self.x[i], self.y[i]), u: self.u[i], weight: self.weight[i] }
+    }
 }
 
 /// Where to look within a region of a map (Reeves 1987, §2, Fig. 3; R87-11).
@@ -27,9 +35,12 @@ pub struct Taps<S: Simd> {
 /// whatever order taps are worked on.
 ///
 /// A region whose centre or extent is not finite gets taps at unspecified positions; nothing panics.
-pub trait Pattern: Sync {
-    /// True when taps carry weights that are not all equal.
-    const WEIGHTED: bool = false;
+pub trait Pattern: Send + Sync {
+    /// True when taps carry weights that are not all equal. The same for all regions.
+    #[inline(always)]
+    fn weighted(&self) -> bool {
+        false
+    }
 
     /// Calls `each` with every batch of taps of `region`, in a fixed order; at least one tap in all.
     ///
@@ -53,15 +64,20 @@ pub struct Tap {
 ///
 /// The taps are those of [`Pattern::taps`], bit for bit, whatever instructions the machine has.
 pub fn each_tap(pattern: &impl Pattern, region: &Footprint, key: Key, each: impl FnMut(&Tap)) {
-    dispatch!(Level::new(), simd => one_by_one(simd, pattern, region, key, each));
+    vectorized!(simd => one_by_one(simd, pattern, region, key, each));
 }
 
 #[inline(always)]
 fn one_by_one<S: Simd, P: Pattern>(simd: S, pattern: &P, region: &Footprint, key: Key, mut each: impl FnMut(&Tap)) {
-    pattern.taps(simd, region, key, |taps| {
-        for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
-            let weight = if P::WEIGHTED { taps.weight[i] } else { 1.0 };
-            each(&Tap { at: Vec2::new(taps.x[i], taps.y[i]), u: taps.u[i], weight });
-        }
-    });
+    pattern.taps(
+        simd,
+        region,
+        key,
+        #[inline(always)]
+        |taps| {
+            for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
+                each(&taps.tap(i));
+            }
+        },
+    );
 }

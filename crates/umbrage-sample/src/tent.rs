@@ -10,7 +10,10 @@ use umbrage_plane::Footprint;
 pub struct Tent;
 
 impl Pattern for Tent {
-    const WEIGHTED: bool = true;
+    #[inline(always)]
+    fn weighted(&self) -> bool {
+        true
+    }
 
     #[inline(always)]
     fn taps<S: Simd>(&self, simd: S, region: &Footprint, key: Key, mut each: impl FnMut(&Taps<S>)) {
@@ -18,9 +21,16 @@ impl Pattern for Tent {
             let share = if half > 0.5 { (at - centre).abs() / half } else { f32x16::splat(simd, 0.0) };
             (-share + 1.0).max(f32x16::splat(simd, 0.0))
         };
-        EveryTexel.taps(simd, region, key, |taps| {
-            let weight = side(taps.x, region.centre.x, region.half.x) * side(taps.y, region.centre.y, region.half.y);
-            each(&Taps { weight, ..*taps });
-        });
+        EveryTexel.taps(
+            simd,
+            region,
+            key,
+            #[inline(always)]
+            |taps| {
+                let weight =
+                    side(taps.x, region.centre.x, region.half.x) * side(taps.y, region.centre.y, region.half.y);
+                each(&Taps { weight, ..*taps });
+            },
+        );
     }
 }

@@ -1,8 +1,11 @@
-use crate::{Filter, Shadow, Unshadowed, channel::Channel};
-use fearless_simd::{Level, Simd, dispatch};
+use crate::query::{Channel, answer};
+use crate::shadow::{by_channel, same_length};
+use crate::{Filter, Query, Shadow, Unshadowed};
+use fearless_simd::Simd;
 use glam::{DVec2, DVec3, IVec2, Vec3};
-use umbrage_depth::DepthMap;
-use umbrage_plane::{DepthRange, Kind, SurfacePoint, TexelRect, Verdict, View, Where};
+use std::borrow::Cow;
+use umbrage_depth::{DepthMap, Step, Translucent};
+use umbrage_plane::{DepthRange, Kind, SurfacePoint, TexelRect, View, Where, vectorized};
 use umbrage_sample::Key;
 
 /// Which of the views around a light a point is tested in (Williams 1978; W78-10).
@@ -79,35 +82,39 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
         self.maps.iter().map(DepthMap::bytes).sum()
     }
 
-    #[inline(always)]
-    fn batch<S: Simd, N: DepthMap>(&self, simd: S, maps: &[N], at: &[SurfacePoint], key: Key, out: &mut [f32]) {
-        let eye = maps[0].view().light().truncate();
-        for (point, fraction) in at.iter().zip(out) {
-            let key = key.region(point.region);
-            *fraction = match self.evaluate {
-                Evaluate::Own => {
-                    let own = nearest(maps, point.position.as_dvec3() - eye);
-                    self.ask(simd, &Face { maps, own }, point, key)
-                }
-                Evaluate::Every => maps.iter().map(|map| self.within(simd, map, point, key)).fold(0.0, f32::max),
-            };
-        }
+    fn batch(&self, channel: Channel, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
+        same_length(at, out);
+        vectorized!(simd => {
+            let eye = self.maps[0].view().light().truncate();
+            for (point, fraction) in at.iter().zip(out) {
+                let key = key.region(point.region);
+                *fraction = match self.evaluate {
+                    Evaluate::Own => {
+                        let own = nearest(&self.maps, point.position.as_dvec3() - eye);
+                        self.ask(simd, &Face { maps: &self.maps, own }, channel, point, key)
+                    }
+                    Evaluate::Every => {
+                        self.maps.iter().map(|map| self.within(simd, map, channel, point, key)).fold(0.0, f32::max)
+                    }
+                };
+            }
+        });
     }
 
     #[inline(always)]
-    fn ask<S: Simd, N: DepthMap>(&self, simd: S, map: &N, point: &SurfacePoint, key: Key) -> f32 {
+    fn ask<S: Simd, N: DepthMap>(&self, simd: S, map: &N, channel: Channel, point: &SurfacePoint, key: Key) -> f32 {
         match map.view().receiver(point) {
-            Ok(receiver) => self.filter.shadow(simd, map, &receiver, key, &mut ()),
-            Err(place) => f32::from(u8::from(map.view().rules().verdict(place) == Verdict::Shadowed)),
+            Ok(receiver) => Query::new(simd, map, &receiver, key, &mut ()).of_channel(channel).ask(&self.filter),
+            Err(place) => answer(map.view().rules().verdict(place)).unwrap_or(0.0),
         }
     }
 
     /// The answer of one view, 0 for a point that it does not see.
     #[inline(always)]
-    fn within<S: Simd, N: DepthMap>(&self, simd: S, map: &N, point: &SurfacePoint, key: Key) -> f32 {
+    fn within<S: Simd>(&self, simd: S, map: &M, channel: Channel, point: &SurfacePoint, key: Key) -> f32 {
         match map.view().receiver(point) {
             Ok(receiver) if map.view().locate(receiver.footprint.centre) == Where::Inside => {
-                self.filter.shadow(simd, map, &receiver, key, &mut ())
+                Query::new(simd, map, &receiver, key, &mut ()).of_channel(channel).ask(&self.filter)
             }
             _ => 0.0,
         }
@@ -116,27 +123,20 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
 
 impl<F: Filter, M: DepthMap> Shadow for Around<F, M> {
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
-        dispatch!(Level::new(), simd => self.batch(simd, &self.maps, at, key, out));
+        self.batch(Channel::All, at, key, out);
     }
 
     fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
-        let colours: Vec<_> = self.maps.iter().map(Channel::of).collect();
-        if colours.iter().all(Option::is_none) {
+        if grey(&self.maps) {
             return Unshadowed.transmittances(at, key, fractions, out);
         }
-        let mut channels = [Vec::new(), Vec::new(), Vec::new()];
-        for (map, colours) in self.maps.iter().zip(colours) {
-            let colours = colours.unwrap_or_else(|| [0; 3].map(|_| Channel::Alike(map)));
-            channels.iter_mut().zip(colours).for_each(|(channel, map)| channel.push(map));
-        }
-        let mut dark = vec![0.0; at.len()];
-        for (channel, maps) in channels.iter().enumerate() {
-            dispatch!(Level::new(), simd => self.batch(simd, maps, at, key, &mut dark));
-            for (passes, dark) in out.iter_mut().zip(&dark) {
-                passes[channel] = 1.0 - dark;
-            }
-        }
+        by_channel(at, out, |channel, dark| self.batch(channel, at, key, dark));
     }
+}
+
+/// Whether all maps let red, green and blue light pass alike.
+fn grey<M: DepthMap>(maps: &[M]) -> bool {
+    maps.iter().all(|map| map.translucent().is_none_or(Translucent::is_grey))
 }
 
 /// The map whose axis is nearest to a direction; the first of several.
@@ -191,11 +191,6 @@ impl<M: DepthMap> Face<'_, M> {
 
 impl<M: DepthMap> DepthMap for Face<'_, M> {
     #[inline(always)]
-    fn is_deep(&self) -> bool {
-        self.maps[self.own].is_deep()
-    }
-
-    #[inline(always)]
     fn view(&self) -> &View {
         self.maps[self.own].view()
     }
@@ -209,13 +204,10 @@ impl<M: DepthMap> DepthMap for Face<'_, M> {
         }
     }
 
+    /// As the own view's map has it: beyond a plain one only nearest surfaces are compared.
     #[inline(always)]
-    fn passes(&self, texel: IVec2, depth: f32) -> f32 {
-        if self.inside(texel) {
-            self.maps[self.own].passes(texel, depth)
-        } else {
-            self.beyond(texel).map_or(1.0, |(map, texel, scale)| map.passes(texel, depth / scale))
-        }
+    fn translucent(&self) -> Option<&dyn Translucent> {
+        self.maps[self.own].translucent().map(|_| self as &dyn Translucent)
     }
 
     #[inline(always)]
@@ -226,5 +218,44 @@ impl<M: DepthMap> DepthMap for Face<'_, M> {
 
     fn bytes(&self) -> usize {
         self.maps[self.own].bytes()
+    }
+}
+
+impl<M: DepthMap> Translucent for Face<'_, M> {
+    fn steps(&self, texel: IVec2) -> Cow<'_, [Step]> {
+        if self.inside(texel) {
+            return steps(&self.maps[self.own], texel);
+        }
+        let Some((map, texel, scale)) = self.beyond(texel) else { return Cow::Borrowed(&[]) };
+        steps(map, texel).iter().map(|step| Step { depth: step.depth * scale, ..*step }).collect()
+    }
+
+    fn is_grey(&self) -> bool {
+        grey(self.maps)
+    }
+
+    fn transmittance(&self, texel: IVec2, depth: f32) -> Vec3 {
+        let (map, texel, depth) = if self.inside(texel) {
+            (&self.maps[self.own], texel, depth)
+        } else {
+            let Some((map, texel, scale)) = self.beyond(texel) else { return Vec3::ONE };
+            (map, texel, depth / scale)
+        };
+        match map.translucent() {
+            Some(deep) => deep.transmittance(texel, depth),
+            None => Vec3::splat(f32::from(u8::from(depth <= map.depth(texel)))),
+        }
+    }
+}
+
+/// The surfaces of a texel; the one of a plain map lets nothing pass.
+fn steps<M: DepthMap>(map: &M, texel: IVec2) -> Cow<'_, [Step]> {
+    match map.translucent() {
+        Some(deep) => deep.steps(texel),
+        None => {
+            let depth = map.depth(texel);
+            let seen = (depth < f32::INFINITY).then_some(Step { depth, passes: Vec3::ZERO });
+            Cow::Owned(seen.into_iter().collect())
+        }
     }
 }

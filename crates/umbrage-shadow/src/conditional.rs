@@ -1,9 +1,7 @@
-use crate::share::share;
-use crate::{Biased, Filter, OnPlane, Probe};
+use crate::{Biased, Filter, OnPlane, Probe, Query};
 use fearless_simd::Simd;
 use umbrage_depth::DepthMap;
-use umbrage_plane::Receiver;
-use umbrage_sample::{EveryTexel, Key, Pattern};
+use umbrage_sample::{EveryTexel, Pattern};
 
 /// When the tangent plane is asked (Wang & Molnar 1994; WM94-15).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -64,34 +62,23 @@ impl Default for Conditional {
 
 impl<P: Pattern> Filter for Conditional<P> {
     #[inline(always)]
-    fn shadow<S: Simd, M: DepthMap, Q: Probe>(
-        &self,
-        simd: S,
-        map: &M,
-        receiver: &Receiver,
-        key: Key,
-        probe: &mut Q,
-    ) -> f32 {
-        if self.dark_backs && receiver.facing <= 0.0 {
+    fn shadow<S: Simd, M: DepthMap, Q: Probe>(&self, query: &mut Query<'_, S, M, Q>) -> f32 {
+        let facing = query.receiver().facing;
+        if self.dark_backs && facing <= 0.0 {
             return 1.0;
         }
-        let view = map.view();
-        let region = receiver.footprint.scaled(self.res_factor, self.min_size, view.size().as_vec2() * 0.25);
-        let own = Biased::constant(self.plane.bias);
-        let (plain, texels) = share(simd, map, receiver, &region, (&self.pattern, &own), key);
+        let region = query.region(self.res_factor, self.min_size);
+        let plain = query.share(&region, &self.pattern, &Biased::constant(self.plane.bias));
         let agreed = plain == 0.0 || plain == 1.0;
         let asked = match self.when {
             VirtualWhen::Mixed => !agreed,
             VirtualWhen::Always => true,
             VirtualWhen::Never => false,
         };
-        if !asked || receiver.facing.abs() < self.min_cos {
-            probe.looked(texels);
+        if !asked || facing.abs() < self.min_cos {
             return plain;
         }
-        let (on_plane, again) = share(simd, map, receiver, &region, (&self.pattern, &self.plane), key);
-        probe.virtual_sampled();
-        probe.looked(texels + again);
-        on_plane
+        query.probe().virtual_sampled();
+        query.share(&region, &self.pattern, &self.plane)
     }
 }

@@ -54,15 +54,16 @@ impl ReceiverDepth for Cone {
         let tip = view.eye_to_texel(receiver.eye);
         let world = receiver.texel_world.as_dvec2();
         let (column, row) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
-        let depth = |i: usize| {
+        let mut depths = [0.0; 16];
+        for i in 0..16 {
             let at = match self.radius {
                 Radius::TexelCentre => view.sampling().position(IVec2::new(column[i], row[i])),
                 Radius::Nominal => lane(taps, i).as_dvec2(),
             };
             let distance = ((at - tip) * world).length() as f32;
-            receiver.nearer(view, Bias::World(self.bias(distance)))
-        };
-        f32x16::load_array(simd, std::array::from_fn(depth))
+            depths[i] = receiver.nearer(view, Bias::World(self.bias(distance)));
+        }
+        f32x16::load_array(simd, depths)
     }
 
     #[inline(always)]

@@ -1,10 +1,10 @@
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::{IVec2, Vec2};
 use umbrage_plane::{Bias, DepthRange, Kind, Receiver, TexelRect, View, floor_texel};
-use umbrage_sample::{Taps, radical_inverse};
+use umbrage_sample::{Taps, radical_inverses};
 
 /// Which depth the receiver is given at a tap; a texel nearer than that shadows it.
-pub trait ReceiverDepth: Sync {
+pub trait ReceiverDepth: Send + Sync {
     /// The depth to compare at each of the taps, in the map's kind, bias included.
     fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S>;
 
@@ -67,10 +67,7 @@ impl ReceiverDepth for Biased {
         }
         let share = match self.spread {
             Spread::Random => taps.u,
-            Spread::Ramp => {
-                let first = taps.first;
-                f32x16::load_array(simd, std::array::from_fn(|i| radical_inverse(first + i as u32)))
-            }
+            Spread::Ramp => radical_inverses(simd, taps.first),
         };
         share * (far_end - near_end) + near_end
     }
@@ -132,11 +129,12 @@ impl ReceiverDepth for OnPlane {
         let shift = self.shift(view, receiver);
         let (column, row) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
         let (low, high) = (receiver.depth - self.reach, receiver.depth + self.reach);
-        let depth = |i: usize| {
+        let mut depths = [0.0; 16];
+        for i in 0..16 {
             let depth = plane.at(view.sampling().position(IVec2::new(column[i], row[i])));
-            depth.max(low).min(high) + shift
-        };
-        f32x16::load_array(simd, std::array::from_fn(depth))
+            depths[i] = depth.max(low).min(high) + shift;
+        }
+        f32x16::load_array(simd, depths)
     }
 
     #[inline(always)]

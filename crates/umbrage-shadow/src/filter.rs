@@ -1,22 +1,40 @@
-use crate::Probe;
+use crate::{Probe, Query};
 use fearless_simd::Simd;
 use std::ops::{Add, Mul};
+use std::sync::Arc;
 use umbrage_depth::DepthMap;
-use umbrage_plane::{Footprint, Receiver};
+use umbrage_plane::Footprint;
 use umbrage_sample::{Key, Pattern, Tap, each_tap};
 
 /// Combines what a map says around a receiver into a fraction in shadow.
-pub trait Filter: Sync {
-    /// The fraction of the receiver's region that is in shadow, in 0..=1. `key` is the region's own.
-    fn shadow<S: Simd, M: DepthMap, P: Probe>(
-        &self,
-        simd: S,
-        map: &M,
-        receiver: &Receiver,
-        key: Key,
-        probe: &mut P,
-    ) -> f32;
+///
+/// A filter of one's own is a struct with its parameters and this one function, which asks the [`Query`]: for a region, for the
+/// fraction in shadow of a pattern's taps, or for each tap. Here are percentage-closer soft shadows (Fernando 2005):
+///
+/// ```
+#[doc = include_str!("../examples/filter/pcss.rs")]
+/// ```
+///
+/// Mark the function `#[inline(always)]`, so that it is compiled for the machine's own instructions.
+pub trait Filter: Send + Sync {
+    /// The fraction of the receiver's region that is in shadow, in 0..=1.
+    fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32;
 }
+
+/// [`Filter`] of something that stands for another filter.
+macro_rules! forward {
+    ($type:ty) => {
+        impl<F: Filter> Filter for $type {
+            #[inline(always)]
+            fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32 {
+                (**self).shadow(query)
+            }
+        }
+    };
+}
+
+forward!(&F);
+forward!(Arc<F>);
 
 /// The weighted mean over a region of anything that can be computed at a tap: the order of *transform, then filter*
 /// that percentage-closer filtering is one case of (Reeves 1987, §6; R87-9, R87-26).

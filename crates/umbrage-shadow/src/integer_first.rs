@@ -1,9 +1,8 @@
-use crate::share::share_by;
-use crate::{Biased, Filter, Probe};
-use fearless_simd::{Simd, f32x16};
+use crate::{Biased, Filter, Probe, Query};
+use fearless_simd::Simd;
 use umbrage_depth::DepthMap;
-use umbrage_plane::{Bias, Receiver};
-use umbrage_sample::{Jittered, Key, Pattern};
+use umbrage_plane::Bias;
+use umbrage_sample::{Jittered, Pattern};
 
 /// Whole units of a depth: what Woo compares first (Woo 1992; W92-7). Rounded down and saturated, so that it never decreases; NaN is 0.
 #[inline(always)]
@@ -46,26 +45,23 @@ impl Default for IntegerFirst {
 
 impl<P: Pattern> Filter for IntegerFirst<P> {
     #[inline(always)]
-    fn shadow<S: Simd, M: DepthMap, Q: Probe>(
-        &self,
-        simd: S,
-        map: &M,
-        receiver: &Receiver,
-        key: Key,
-        probe: &mut Q,
-    ) -> f32 {
-        let view = map.view();
-        let region = receiver.footprint.scaled(self.res_factor, self.min_size, view.size().as_vec2() * 0.25);
+    fn shadow<S: Simd, M: DepthMap, Q: Probe>(&self, query: &mut Query<'_, S, M, Q>) -> f32 {
+        let region = query.region(self.res_factor, self.min_size);
         let own = Biased::constant(Bias::ZERO);
-        let by_units = |compared: f32x16<S>, stored: f32x16<S>, mask: u32| {
-            (0..16).filter(|i| mask >> i & 1 == 1).fold(0, |nearer, i| {
-                let (dark, conclusive) = behind(compared[i], stored[i], self.unit);
-                probe.compared(conclusive);
-                nearer | u32::from(dark) << i
-            })
-        };
-        let (dark, texels) = share_by(simd, map, receiver, &region, (&self.pattern, &own), key, by_units);
-        probe.looked(texels);
-        dark
+        query.share_by(
+            &region,
+            &self.pattern,
+            &own,
+            #[inline(always)]
+            |probe, compared, stored, mask| {
+                let mut nearer = 0;
+                for i in (0..16).filter(|i| mask >> i & 1 == 1) {
+                    let (dark, conclusive) = behind(compared[i], stored[i], self.unit);
+                    probe.compared(conclusive);
+                    nearer |= u32::from(dark) << i;
+                }
+                nearer
+            },
+        )
     }
 }

@@ -1,9 +1,11 @@
 use crate::around::nearest;
-use crate::{Biased, Filter, Pcf, Shadow};
-use fearless_simd::{Level, dispatch};
+use crate::shadow::same_length;
+use crate::{Biased, Pcf, Query, Shadow};
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec2};
 use umbrage_depth::{DepthMap, MapError, Raw};
-use umbrage_plane::{DepthRange, Footprint, Kind, Receiver, Rules, SurfacePoint, TexelRect, View, ViewError};
+use umbrage_plane::{
+    DepthRange, Footprint, Kind, Receiver, Rules, SurfacePoint, TexelRect, View, ViewError, vectorized,
+};
 use umbrage_sample::{Jittered, Key, Pattern};
 
 /// Why a latitude-longitude map cannot be made.
@@ -101,10 +103,11 @@ impl<P: Pattern> LatLong<P> {
 
 impl<P: Pattern> Shadow for LatLong<P> {
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
-        dispatch!(Level::new(), simd => {
+        same_length(at, out);
+        vectorized!(simd => {
             for (point, fraction) in at.iter().zip(out.iter_mut()) {
-                let key = key.region(point.region);
-                *fraction = self.filter.shadow(simd, &self.map, &self.receiver(point), key, &mut ());
+                let (receiver, key) = (self.receiver(point), key.region(point.region));
+                *fraction = Query::new(simd, &self.map, &receiver, key, &mut ()).ask(&self.filter);
             }
         });
     }

@@ -1,13 +1,14 @@
-use crate::{Filter, Probe};
+use crate::{Biased, Filter, Met, Probe, Query};
 use fearless_simd::Simd;
 use umbrage_depth::DepthMap;
-use umbrage_plane::{Bias, Receiver, TexelRect, Verdict};
-use umbrage_sample::{EveryTexel, Key, Pattern};
+use umbrage_plane::Bias;
+use umbrage_sample::{EveryTexel, Pattern};
 
 /// The control of Reeves' Figure 2a: filter the depths, then compare once (R87-10). The answer is 0 or 1, and near an edge it means nothing.
 ///
-/// A region that holds an empty texel has a mean of +∞ and is lit; one whose centre lies outside the map or the cone answers by the
-/// view's rules (spec C-10).
+/// A region that holds a texel without a surface has a mean of +∞ and is lit; one whose centre lies outside the map or the cone answers
+/// by the view's rules (spec C-10). Over a deep map the mean is weighted by what each surface stops, and the answer is 0 or what all of them stop
+/// together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ordinary<P = EveryTexel> {
     /// Where to look.
@@ -20,38 +21,36 @@ pub struct Ordinary<P = EveryTexel> {
 
 impl<P: Pattern> Filter for Ordinary<P> {
     #[inline(always)]
-    fn shadow<S: Simd, M: DepthMap, Q: Probe>(
-        &self,
-        simd: S,
-        map: &M,
-        receiver: &Receiver,
-        key: Key,
-        probe: &mut Q,
-    ) -> f32 {
-        let view = map.view();
-        let place = view.locate(receiver.footprint.centre);
-        match view.rules().verdict(place) {
-            Verdict::Compare => {}
-            settled => {
-                probe.placed(place);
-                return if settled == Verdict::Shadowed { 1.0 } else { 0.0 };
-            }
+    fn shadow<S: Simd, M: DepthMap, Q: Probe>(&self, query: &mut Query<'_, S, M, Q>) -> f32 {
+        if let Some(dark) = query.placed(query.receiver().footprint.centre) {
+            return dark;
         }
-        let region = receiver.footprint.scaled(self.res_factor, 0.0, view.size().as_vec2() * 0.25);
-        let rect = TexelRect::around(region.centre, region.half);
-        let (mut sum, mut count) = (0.0f64, 0.0f64);
-        self.pattern.taps(simd, &region, key, |taps| {
-            let depth = map.look(simd, rect, taps.x, taps.y);
-            for i in 0..16 {
-                if taps.mask >> i & 1 == 1 {
-                    let weight = if P::WEIGHTED { f64::from(taps.weight[i]) } else { 1.0 };
-                    sum += f64::from(depth[i]) * weight;
-                    count += weight;
+        let region = query.region(self.res_factor, 0.0);
+        let own = Biased::constant(self.bias);
+        let compared = query.receiver().nearer(query.view(), self.bias);
+        let (mut sum, mut stopped, mut weight) = (0.0f64, 0.0f64, 0.0f64);
+        query.each(
+            &region,
+            &self.pattern,
+            &own,
+            #[inline(always)]
+            |seen| {
+                let tap = f64::from(seen.tap.weight);
+                weight += tap;
+                let mut any = false;
+                if let Met::Surfaces(surfaces) = &seen.met {
+                    for (depth, stops) in surfaces.iter() {
+                        any = true;
+                        sum += f64::from(depth) * (tap * f64::from(stops));
+                        stopped += tap * f64::from(stops);
+                    }
                 }
-            }
-        });
-        probe.looked(count as u32);
-        let mean = sum / count;
-        if f64::from(receiver.nearer(view, self.bias)) > mean { 1.0 } else { 0.0 }
+                if !any {
+                    sum += f64::INFINITY * tap;
+                }
+            },
+        );
+        let mean = sum / stopped;
+        if f64::from(compared) > mean { (stopped / weight) as f32 } else { 0.0 }
     }
 }

@@ -1,9 +1,7 @@
-use crate::share::share;
-use crate::{Biased, Filter, Probe, ReceiverDepth};
+use crate::{Biased, Filter, Probe, Query, ReceiverDepth};
 use fearless_simd::Simd;
 use umbrage_depth::DepthMap;
-use umbrage_plane::{Receiver, TexelRect};
-use umbrage_sample::{Jittered, Key, Pattern};
+use umbrage_sample::{Jittered, Pattern};
 
 /// Percentage-closer filtering (Reeves, Salesin & Cook 1987, §2, §3.2 and Fig. 4; R87-9, R87-13).
 ///
@@ -36,30 +34,12 @@ impl Default for Pcf {
 
 impl<P: Pattern, D: ReceiverDepth> Filter for Pcf<P, D> {
     #[inline(always)]
-    fn shadow<S: Simd, M: DepthMap, Q: Probe>(
-        &self,
-        simd: S,
-        map: &M,
-        receiver: &Receiver,
-        key: Key,
-        probe: &mut Q,
-    ) -> f32 {
-        let view = map.view();
-        let region = receiver.footprint.scaled(self.res_factor, self.min_size, view.size().as_vec2() * 0.25);
-        let rect = TexelRect::around(region.centre, region.half);
-        if self.cull && !map.is_deep() && view.holds(region.centre, region.half) {
-            let (stored, compared) = (map.range(rect), self.depth.bounds(view, receiver, rect));
-            if compared.max <= stored.min {
-                probe.culled(false);
-                return 0.0;
-            }
-            if compared.min > stored.max {
-                probe.culled(true);
-                return 1.0;
-            }
-        }
-        let (dark, texels) = share(simd, map, receiver, &region, (&self.pattern, &self.depth), key);
-        probe.looked(texels);
-        dark
+    fn shadow<S: Simd, M: DepthMap, Q: Probe>(&self, query: &mut Query<'_, S, M, Q>) -> f32 {
+        let region = query.region(self.res_factor, self.min_size);
+        let settled = if self.cull { query.settled(&region, &self.depth) } else { None };
+        settled.unwrap_or_else(
+            #[inline(always)]
+            || query.share(&region, &self.pattern, &self.depth),
+        )
     }
 }

@@ -1,21 +1,30 @@
-use crate::{Filter, Probe};
-use fearless_simd::{Level, Simd, dispatch};
+use crate::query::{Channel, answer};
+use crate::{Filter, Probe, Query};
+use fearless_simd::Simd;
 use glam::Vec3;
-use umbrage_depth::DepthMap;
-use umbrage_plane::{Receiver, SurfacePoint, Verdict};
+use umbrage_depth::{DepthMap, Translucent};
+use umbrage_plane::{Receiver, SurfacePoint, vectorized};
 use umbrage_sample::Key;
 
 /// What shading sees of a shadow algorithm, and the one place where types are erased: a call answers a whole batch of regions.
 ///
 /// `key` names the picture's light; the implementor adds each point's region to it.
-pub trait Shadow: Sync {
-    /// The fraction in shadow of each region: 0 lit, 1 dark (spec C-6). `out` is as long as `at`.
+pub trait Shadow: Send + Sync {
+    /// The fraction in shadow of each region: 0 lit, 1 dark (spec C-6).
+    ///
+    /// # Panics
+    /// When `out` is not as long as `at`.
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]);
 
     /// What passes of each region's light, linear RGB in 0..=1, where casters colour it. `fractions` are the answers of
     /// [`Shadow::fractions`] to the same call; without colours, their complements.
+    ///
+    /// # Panics
+    /// When `fractions` or `out` is not as long as `at`.
     fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
-        let _ = (at, key);
+        let _ = key;
+        same_length(at, fractions);
+        same_length(at, out);
         for (passes, fraction) in out.iter_mut().zip(fractions) {
             *passes = Vec3::splat(1.0 - fraction);
         }
@@ -34,7 +43,8 @@ pub trait Shadow: Sync {
 pub struct Unshadowed;
 
 impl Shadow for Unshadowed {
-    fn fractions(&self, _at: &[SurfacePoint], _key: Key, out: &mut [f32]) {
+    fn fractions(&self, at: &[SurfacePoint], _key: Key, out: &mut [f32]) {
+        same_length(at, out);
         out.fill(0.0);
     }
 }
@@ -49,9 +59,12 @@ pub struct ShadowMap<F, M> {
 }
 
 impl<F: Filter, M: DepthMap> ShadowMap<F, M> {
-    /// [`Shadow::fractions`] that also tells `probe` what was done (spec X-6).
+    /// [`Shadow::fractions`], observed by `probe` (spec X-6).
+    ///
+    /// # Panics
+    /// As [`Shadow::fractions`].
     pub fn fractions_probed<P: Probe>(&self, at: &[SurfacePoint], key: Key, out: &mut [f32], probe: &mut P) {
-        dispatch!(Level::new(), simd => batch(simd, &self.filter, &self.map, at, key, out, probe));
+        self.batch(Channel::All, at, key, out, probe);
     }
 
     /// The fraction of a receiver that is already in the light's space, under its region's own key.
@@ -59,28 +72,46 @@ impl<F: Filter, M: DepthMap> ShadowMap<F, M> {
     /// # Panics
     /// When the receiver's depth is of another kind than the map's: the two cannot be compared (spec C-4).
     pub fn fraction_of(&self, receiver: &Receiver, key: Key) -> f32 {
+        self.fraction_of_probed(receiver, key, &mut ())
+    }
+
+    /// [`ShadowMap::fraction_of`], observed by `probe`.
+    ///
+    /// # Panics
+    /// As [`ShadowMap::fraction_of`].
+    pub fn fraction_of_probed<P: Probe>(&self, receiver: &Receiver, key: Key, probe: &mut P) -> f32 {
         assert_eq!(receiver.kind, self.map.view().kind(), "kinds of a receiver's depth and of the map's");
-        dispatch!(Level::new(), simd => self.filter.shadow(simd, &self.map, receiver, key, &mut ()))
+        vectorized!(simd => Query::new(simd, &self.map, receiver, key, probe).ask(&self.filter))
+    }
+
+    /// The one place where a filter over a map is compiled.
+    fn batch<P: Probe>(&self, channel: Channel, at: &[SurfacePoint], key: Key, out: &mut [f32], probe: &mut P) {
+        same_length(at, out);
+        vectorized!(simd => batch(simd, self, channel, at, key, out, probe));
     }
 }
 
 #[inline(always)]
 fn batch<S: Simd, F: Filter, M: DepthMap, P: Probe>(
     simd: S,
-    filter: &F,
-    map: &M,
+    shadow: &ShadowMap<F, M>,
+    channel: Channel,
     at: &[SurfacePoint],
     key: Key,
     out: &mut [f32],
     probe: &mut P,
 ) {
+    let (filter, map) = (&shadow.filter, &shadow.map);
     let view = map.view();
     for (point, fraction) in at.iter().zip(out) {
         *fraction = match view.receiver(point) {
-            Ok(receiver) => filter.shadow(simd, map, &receiver, key.region(point.region), probe),
+            Ok(receiver) => {
+                let key = key.region(point.region);
+                Query::new(simd, map, &receiver, key, probe).of_channel(channel).ask(filter)
+            }
             Err(place) => {
                 probe.placed(place);
-                if view.rules().verdict(place) == Verdict::Shadowed { 1.0 } else { 0.0 }
+                answer(view.rules().verdict(place)).unwrap_or(0.0)
             }
         };
     }
@@ -92,15 +123,28 @@ impl<F: Filter, M: DepthMap> Shadow for ShadowMap<F, M> {
     }
 
     fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
-        let Some(maps) = self.map.colours() else {
+        if self.map.translucent().is_none_or(Translucent::is_grey) {
             return Unshadowed.transmittances(at, key, fractions, out);
-        };
-        let mut dark = vec![0.0; at.len()];
-        for (channel, map) in maps.iter().enumerate() {
-            dispatch!(Level::new(), simd => batch(simd, &self.filter, map, at, key, &mut dark, &mut ()));
-            for (passes, dark) in out.iter_mut().zip(&dark) {
-                passes[channel] = 1.0 - dark;
-            }
+        }
+        by_channel(at, out, |channel, dark| self.batch(channel, at, key, dark, &mut ()));
+    }
+}
+
+/// What passes of red, green and blue light, by the fraction in shadow that `ask` gives for each.
+pub(crate) fn by_channel(at: &[SurfacePoint], out: &mut [Vec3], mut ask: impl FnMut(Channel, &mut [f32])) {
+    same_length(at, out);
+    let mut dark = vec![0.0; at.len()];
+    for channel in 0..3 {
+        ask(Channel::One(channel), &mut dark);
+        for (passes, dark) in out.iter_mut().zip(&dark) {
+            passes[channel] = 1.0 - dark;
         }
     }
+}
+
+/// # Panics
+/// When there is not one answer for each point.
+#[track_caller]
+pub(crate) fn same_length<T>(at: &[SurfacePoint], answers: &[T]) {
+    assert_eq!(answers.len(), at.len(), "as many answers as surface points");
 }

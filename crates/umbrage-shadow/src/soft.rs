@@ -1,10 +1,9 @@
-use crate::share::share;
-use crate::{Biased, Cone, Filter, Probe, ReceiverDepth};
+use crate::{Biased, Cone, Filter, Probe, Query, ReceiverDepth};
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec2;
 use umbrage_depth::DepthMap;
-use umbrage_plane::{Bias, Footprint, Kind, Receiver, TexelRect, View};
-use umbrage_sample::{Density, Disc, Key, Pattern};
+use umbrage_plane::{Bias, Footprint, Kind, Receiver, View};
+use umbrage_sample::{Density, Disc};
 
 /// A radius on the map, from 0; +∞ is more than the map has. The unit is part of the type.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -224,27 +223,27 @@ impl<D: ReceiverDepth> Soft<D> {
     /// The weighted mean distance of the occluders around a receiver, world units from the light; `None` without one
     /// (`sampleDepth` of the note; B06-4).
     #[inline(always)]
-    fn occluders<S: Simd, M: DepthMap>(
+    fn occluders<S: Simd, M: DepthMap, P: Probe>(
         &self,
-        simd: S,
-        map: &M,
-        receiver: &Receiver,
+        query: &mut Query<'_, S, M, P>,
         region: &Footprint,
-        key: Key,
     ) -> Option<f32> {
-        let view = map.view();
-        let rect = TexelRect::around(region.centre, region.half);
+        let view = query.view();
         let mut mean = Mean::default();
-        self.search.taps(simd, region, key, |taps| {
-            let compared = self.depth.lanes(simd, view, receiver, taps);
-            let stored = map.look(simd, rect, taps.x, taps.y);
-            let nearer = compared.simd_gt(stored).to_bitmask() as u32 & taps.mask;
-            for i in (0..16).filter(|i| nearer >> i & 1 == 1) {
-                let from =
-                    (Vec2::new(taps.x[i], taps.y[i]) - region.centre) / region.half.max(Vec2::splat(f32::MIN_POSITIVE));
-                mean.add(distance(view, stored[i]), self.falloff.weight(from.length()));
-            }
-        });
+        query.nearest(
+            region,
+            &self.search,
+            &self.depth,
+            #[inline(always)]
+            |taps, compared, stored| {
+                let nearer = compared.simd_gt(stored).to_bitmask() as u32 & taps.mask;
+                for i in (0..16).filter(|i| nearer >> i & 1 == 1) {
+                    let from = (Vec2::new(taps.x[i], taps.y[i]) - region.centre)
+                        / region.half.max(Vec2::splat(f32::MIN_POSITIVE));
+                    mean.add(distance(view, stored[i]), self.falloff.weight(from.length()));
+                }
+            },
+        );
         mean.value()
     }
 }
@@ -260,36 +259,23 @@ fn distance(view: &View, depth: f32) -> f64 {
 
 impl<D: ReceiverDepth> Filter for Soft<D> {
     #[inline(always)]
-    fn shadow<S: Simd, M: DepthMap, Q: Probe>(
-        &self,
-        simd: S,
-        map: &M,
-        receiver: &Receiver,
-        key: Key,
-        probe: &mut Q,
-    ) -> f32 {
-        let view = map.view();
-        let most = view.size().as_vec2() * 0.25;
-        let Footprint { centre, half, .. } = receiver.footprint;
-        let at_least = |radius: Vec2| Footprint::boxed(centre, radius.max(half).min(most));
+    fn shadow<S: Simd, M: DepthMap, Q: Probe>(&self, query: &mut Query<'_, S, M, Q>) -> f32 {
+        let (view, receiver) = (query.view(), query.receiver());
         let own = distance(view, receiver.depth) as f32;
-        let search = at_least(self.softness.search(view, receiver, own));
-        let found = self.occluders(simd, map, receiver, &search, key);
+        let search = query.region_around(self.softness.search(view, receiver, own));
+        let found = self.occluders(query, &search);
         let mean = found.unwrap_or(own);
-        let region = at_least(self.softness.blur(view, receiver, mean, own, self.radius_gamma));
+        let region = query.region_around(self.softness.blur(view, receiver, mean, own, self.radius_gamma));
         // What the rules alone darken, in front of everything that is stored: no occluder's opacity thins it.
-        let (beyond, asked) = if view.holds(region.centre, region.half) {
-            (0.0, 0)
+        let beyond = if view.holds(region.centre, region.half) {
+            0.0
         } else {
-            share(simd, map, receiver, &region, (&self.blur, &Biased::constant(Bias::Map(f32::INFINITY))), key)
+            query.share(&region, &self.blur, &Biased::constant(Bias::Map(f32::INFINITY)))
         };
-        let searched = self.search.num_samples.max(1) + asked;
         if found.is_none() && !self.rescue {
-            probe.looked(searched);
             return beyond;
         }
-        let (dark, blurred) = share(simd, map, receiver, &region, (&self.blur, &self.depth), key);
-        probe.looked(searched + blurred);
+        let dark = query.share(&region, &self.blur, &self.depth);
         beyond + (dark - beyond) * self.opacity.at(own - mean)
     }
 }

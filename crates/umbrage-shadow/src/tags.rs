@@ -1,4 +1,5 @@
 use crate::Shadow;
+use crate::shadow::same_length;
 use umbrage_depth::TagMap;
 use umbrage_plane::{SurfacePoint, Verdict};
 use umbrage_sample::Key;
@@ -12,6 +13,7 @@ pub struct Tags(pub TagMap);
 
 impl Shadow for Tags {
     fn fractions(&self, at: &[SurfacePoint], _key: Key, out: &mut [f32]) {
+        same_length(at, out);
         let view = self.0.view();
         for (point, fraction) in at.iter().zip(out) {
             let place = match view.receiver(point) {

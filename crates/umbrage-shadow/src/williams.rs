@@ -7,11 +7,11 @@
 //! Departures: (1) bilinear interpolation of an axial perspective map is done on −1/ζ, where planes are linear
 //! (W78-13, D-1); (2) [`Guard`] keeps blends across silhouettes out of the comparison (W78-14).
 
-use crate::{Filter, Probe};
+use crate::{Filter, Probe, Query};
 use fearless_simd::Simd;
 use glam::{DMat4, DVec3, DVec4, IVec2, Vec2};
 use umbrage_depth::DepthMap;
-use umbrage_plane::{Bias, Kind, Receiver, Verdict, View};
+use umbrage_plane::{Bias, Kind, Receiver, View};
 use umbrage_sample::Key;
 
 /// How the light's depth at a point is taken from the texels around it.
@@ -85,7 +85,7 @@ impl Dither {
     }
 }
 
-/// Williams' test of one point (W78-11..W78-15). The answer is 0 or 1.
+/// Williams' test of one point (W78-11..W78-15). The answer is 0 or 1, except over deep maps, where it is what the surfaces stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Williams {
     /// Moves the point toward the light (W78-11).
@@ -98,48 +98,51 @@ pub struct Williams {
 
 impl Filter for Williams {
     #[inline(always)]
-    fn shadow<S: Simd, M: DepthMap, P: Probe>(
-        &self,
-        _simd: S,
-        map: &M,
-        receiver: &Receiver,
-        key: Key,
-        probe: &mut P,
-    ) -> f32 {
-        let view = map.view();
+    fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32 {
+        let (view, receiver, key) = (query.view(), query.receiver(), query.key());
         let mut at = receiver.footprint.centre;
         if self.dither.amplitude > 0.0 {
             let draw = |axis| Dither::draw(self.dither.law, key, axis);
             at += Vec2::new(draw(0), draw(1)) * self.dither.amplitude;
         }
-        let place = view.locate(at);
-        match view.rules().verdict(place) {
-            Verdict::Lit => {
-                probe.placed(place);
-                return 0.0;
-            }
-            Verdict::Shadowed => {
-                probe.placed(place);
-                return 1.0;
-            }
-            Verdict::Compare => {}
+        if let Some(dark) = query.placed(at) {
+            return dark;
         }
         let mut compared = receiver.nearer(view, self.bias);
         if self.dither.depth > 0.0 {
             compared += Dither::draw(self.dither.law, key, 2) * self.dither.depth;
         }
-        let stored = match self.lookup {
-            Lookup::Nearest => {
-                probe.looked(1);
-                map.depth(at.floor().as_ivec2())
-            }
+        match self.lookup {
+            Lookup::Nearest => query.texel(at.floor().as_ivec2()).dark(compared),
             Lookup::Bilinear(guard) => {
-                probe.looked(4);
-                bilinear(map, at, guard, receiver)
+                if compared > bilinear(query.map(), at, guard, receiver) {
+                    // What the four texels stop in all: everything, unless the map is deep.
+                    let (texels, fraction) = four(view, at);
+                    lerp(texels.map(|texel| query.texel(texel).dark(f32::INFINITY)), fraction)
+                } else {
+                    query.count(4);
+                    0.0
+                }
             }
-        };
-        if compared > stored { 1.0 } else { 0.0 }
+        }
     }
+}
+
+/// The four texels whose centres lie around a texel position, clamped to the map: left and right above, left and right below. Beside
+/// them, how far the position is on the way from the first to the last, on each axis.
+#[inline(always)]
+fn four(view: &View, at: Vec2) -> ([IVec2; 4], Vec2) {
+    let corner = (at - 0.5).floor();
+    let last = view.size().as_ivec2() - 1;
+    let texel = |x, y| (corner.as_ivec2() + IVec2::new(x, y)).clamp(IVec2::ZERO, last);
+    ([texel(0, 0), texel(1, 0), texel(0, 1), texel(1, 1)], at - 0.5 - corner)
+}
+
+#[inline(always)]
+fn lerp([a, b, c, d]: [f32; 4], fraction: Vec2) -> f32 {
+    let top = a + (b - a) * fraction.x;
+    let bottom = c + (d - c) * fraction.x;
+    top + (bottom - top) * fraction.y
 }
 
 /// The depth at a texel position between the four nearest texel centres (W78-13, V44).
@@ -147,12 +150,8 @@ impl Filter for Williams {
 /// Screen and orthographic depths are interpolated as they are, axial perspective depths through −1/ζ.
 pub fn bilinear<M: DepthMap>(map: &M, at: Vec2, guard: Guard, receiver: &Receiver) -> f32 {
     let view = map.view();
-    let corner = (at - 0.5).floor();
-    let share = at - 0.5 - corner;
-    let texel = corner.as_ivec2();
-    let last = view.size().as_ivec2() - 1;
-    let read = |x, y| map.depth((texel + IVec2::new(x, y)).clamp(IVec2::ZERO, last));
-    let mut four = [read(0, 0), read(1, 0), read(0, 1), read(1, 1)];
+    let (texels, fraction) = four(view, at);
+    let mut four = texels.map(|texel| map.depth(texel));
     match guard {
         Guard::Faithful => {
             let far = far_depth(view);
@@ -167,10 +166,7 @@ pub fn bilinear<M: DepthMap>(map: &M, at: Vec2, guard: Guard, receiver: &Receive
         }
     }
     let inverse = view.is_perspective() && view.kind() == Kind::Axial;
-    let [a, b, c, d] = four.map(|depth| if inverse { -1.0 / depth } else { depth });
-    let top = a + (b - a) * share.x;
-    let bottom = c + (d - c) * share.x;
-    let value = top + (bottom - top) * share.y;
+    let value = lerp(four.map(|depth| if inverse { -1.0 / depth } else { depth }), fraction);
     if inverse { -1.0 / value } else { value }
 }
 

@@ -1,8 +1,8 @@
 //! Maps of several surfaces a texel, through every filter that compares (B06-11, V56, T-19).
 
-use fearless_simd::{Level, dispatch};
 use glam::{DVec3, IVec2, UVec2, Vec2, Vec3};
-use umbrage_depth::DepthMap;
+use std::borrow::Cow;
+use umbrage_depth::{DepthMap, Step, Translucent};
 use umbrage_plane::{Bias, DepthRange, Footprint, Kind, Receiver, Rules, SurfacePoint, TexelRect, View, cube_views};
 use umbrage_sample::{Centre, EveryTexel, Key};
 use umbrage_shadow::{
@@ -22,10 +22,6 @@ struct Layers {
 }
 
 impl DepthMap for Layers {
-    fn is_deep(&self) -> bool {
-        true
-    }
-
     fn view(&self) -> &View {
         &self.view
     }
@@ -35,28 +31,35 @@ impl DepthMap for Layers {
         if inside { self.surfaces.first().map_or(f32::INFINITY, |(depth, _)| *depth) } else { f32::INFINITY }
     }
 
-    fn passes(&self, texel: IVec2, depth: f32) -> f32 {
-        if self.depth(texel) == f32::INFINITY {
-            return 1.0;
-        }
-        self.surfaces.iter().filter(|(at, _)| depth > *at).map(|(_, stops)| 1.0 - stops[0]).product()
-    }
-
     /// Of opaque surfaces this would be a range to cull by: a filter that did would be wrong.
     fn range(&self, _rect: TexelRect) -> DepthRange {
         DepthRange { min: self.surfaces[0].0, max: self.surfaces[0].0 }
     }
 
-    fn colours(&self) -> Option<[Self; 3]> {
-        let channel = |channel: usize| {
-            let surfaces = self.surfaces.iter().map(|(depth, stops)| (*depth, [stops[channel]; 3])).collect();
-            Self { surfaces, coloured: false, ..self.clone() }
-        };
-        self.coloured.then(|| [0, 1, 2].map(channel))
+    fn translucent(&self) -> Option<&dyn Translucent> {
+        Some(self)
     }
 
     fn bytes(&self) -> usize {
         4 * self.surfaces.len()
+    }
+}
+
+impl Translucent for Layers {
+    fn steps(&self, texel: IVec2) -> Cow<'_, [Step]> {
+        if self.depth(texel) == f32::INFINITY {
+            return Cow::Borrowed(&[]);
+        }
+        let mut passes = Vec3::ONE;
+        let step = |(depth, stops): &(f32, [f32; 3])| {
+            passes *= Vec3::ONE - Vec3::from(*stops);
+            Step { depth: *depth, passes }
+        };
+        self.surfaces.iter().map(step).collect()
+    }
+
+    fn is_grey(&self) -> bool {
+        !self.coloured
     }
 }
 
@@ -79,7 +82,7 @@ fn at(view: &View, depth: f32, centre: Vec2, half: f32) -> Receiver {
 
 fn ask<F: Filter>(filter: &F, map: &impl DepthMap, receiver: &Receiver) -> (f32, Counters) {
     let mut counters = Counters::default();
-    let found = dispatch!(Level::new(), simd => filter.shadow(simd, map, receiver, KEY, &mut counters));
+    let found = ShadowMap { filter, map }.fraction_of_probed(receiver, KEY, &mut counters);
     (found, counters)
 }
 

@@ -1,6 +1,5 @@
 //! Reeves, Salesin & Cook 1987: the worked example, the listing as printed and as corrected, ranges and rules.
 
-use fearless_simd::{Level, dispatch};
 use glam::{DVec3, UVec2, Vec2, Vec3};
 use umbrage_depth::{Raw, Tiled};
 use umbrage_plane::{Bias, Footprint, Kind, Receiver, Rules, SurfacePoint, View, Where};
@@ -266,7 +265,7 @@ fn v33_t_4_ranges_settle_a_region_only_when_they_may_r87_22() {
     let settled = |map: &Tiled, z: f32| {
         let region = receiver(&lamp(32), z, Vec2::splat(16.0), Vec2::splat(2.0));
         let mut probe = Counters::default();
-        let ask = |filter: Pcf, probe: &mut Counters| dispatch!(Level::new(), simd => filter.shadow(simd, map, &region, KEY, probe));
+        let ask = |filter: Pcf, probe: &mut Counters| ShadowMap { filter, map }.fraction_of_probed(&region, KEY, probe);
         let answer = ask(presets::reeves87(), &mut probe);
         assert_eq!(answer, ask(Pcf { cull: false, ..presets::reeves87() }, &mut Counters::default()), "z = {z}");
         (probe.lookups == 0).then_some(answer)
@@ -325,7 +324,7 @@ fn r87_22_culling_changes_no_bit() {
 }
 
 fn asked<F: Filter>(filter: &F, map: &Tiled, receiver: &Receiver, key: Key, probe: &mut Counters) -> f32 {
-    dispatch!(Level::new(), simd => filter.shadow(simd, map, receiver, key, probe))
+    ShadowMap { filter, map }.fraction_of_probed(receiver, key, probe)
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! Interaction traps (spec §11) that concern Williams' and Reeves' filters, one test each. T-4 and T-20 are among Reeves' tests, T-14 with the
 //! listing, T-15 with the post-process, T-16 with lights in all directions.
 
-use fearless_simd::{Level, dispatch};
 use glam::{DVec3, IVec2, UVec2, Vec2, Vec3};
 use umbrage_depth::{Bbox, DepthMap, Raw};
 use umbrage_plane::{Bias, Footprint, Kind, Receiver, Rules, SurfacePoint, TexelRect, View};
@@ -30,7 +29,7 @@ fn plane(view: &View, height: f64, normal: DVec3) -> Raw {
 }
 
 fn ask<F: Filter>(filter: &F, map: &impl DepthMap, receiver: &Receiver, key: Key) -> f32 {
-    dispatch!(Level::new(), simd => filter.shadow(simd, map, receiver, key, &mut ()))
+    ShadowMap { filter, map }.fraction_of_probed(receiver, key, &mut ())
 }
 
 #[test]

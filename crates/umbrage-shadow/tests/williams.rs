@@ -1,6 +1,5 @@
 //! Williams 1978: matrices, bias in the matrix, bilinear z, dither, order-preserving depth.
 
-use fearless_simd::{Level, dispatch};
 use glam::{DVec3, UVec2, Vec2, Vec3};
 use umbrage_depth::{DepthMap, Raw};
 use umbrage_plane::{Bias, Kind, SurfacePoint, View};
@@ -8,7 +7,7 @@ use umbrage_sample::Key;
 use umbrage_shadow::williams::{
     Dither, DitherLaw, Guard, Lookup, Williams, bilinear, fold_bias, observer_to_light, transform, transform_all,
 };
-use umbrage_shadow::{Filter, Shadow, ShadowMap, presets};
+use umbrage_shadow::{Shadow, ShadowMap, presets};
 
 const KEY: Key = Key::new(3, 0, 0);
 
@@ -121,8 +120,8 @@ fn w78_25_only_the_order_of_depths_matters_at_bias_zero() {
         let world = view.world_at(at, -1.0 / f64::from(zeta)).as_vec3();
         let receiver = view.receiver(&SurfacePoint::at(world, Vec3::Y)).unwrap();
         let remapped = umbrage_plane::Receiver { depth: receiver.depth.powi(3) * 0.01 - 7.0, ..receiver };
-        let one = dispatch!(Level::new(), s => filter.shadow(s, &map, &receiver, KEY, &mut ()));
-        let two = dispatch!(Level::new(), s => filter.shadow(s, &warped, &remapped, KEY, &mut ()));
+        let one = ShadowMap { filter, map: &map }.fraction_of(&receiver, KEY);
+        let two = ShadowMap { filter, map: &warped }.fraction_of(&remapped, KEY);
         assert_eq!(one, two, "at ζ = {zeta}");
     }
 }

@@ -1,6 +1,5 @@
 //! Woo 1992: the rule of the cone, the listing without bias, and whole units before fractions (W92-5 to W92-10).
 
-use fearless_simd::{Level, dispatch};
 use glam::{DVec3, UVec2, Vec2, Vec3};
 use proptest::prelude::*;
 use umbrage_depth::{DepthMap, Raw};
@@ -30,7 +29,7 @@ fn receiver(view: &View, centre: Vec2, half: Vec2) -> Receiver {
 }
 
 fn ask<F: Filter>(filter: &F, map: &impl DepthMap, receiver: &Receiver, key: Key, probe: &mut impl Probe) -> f32 {
-    dispatch!(Level::new(), simd => filter.shadow(simd, map, receiver, key, probe))
+    ShadowMap { filter, map }.fraction_of_probed(receiver, key, probe)
 }
 
 fn exhaustive() -> Pcf<EveryTexel, Biased> {

@@ -2,7 +2,7 @@
 
 use super::values::{bias, number, one_of, share};
 use super::{RecipeError, Set, over};
-use crate::Map;
+use umbrage_depth::Map;
 use umbrage_sample::Tent;
 use umbrage_shadow::{Conditional, Shadow, VirtualWhen, presets};
 

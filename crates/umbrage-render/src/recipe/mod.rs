@@ -6,36 +6,16 @@ mod stored;
 mod values;
 mod williams;
 
-use crate::Map;
 use conditional::WangMolnar;
 use reeves::Reeves;
 use soft::Burley;
 use std::str::FromStr;
 use stored::{Rule, Stored};
+use umbrage_depth::{Map, Storage};
 use umbrage_plane::{Bias, View};
 use umbrage_sample::EveryTexel;
 use umbrage_scene::Scene;
 use umbrage_shadow::{Filter, Ordinary, Shadow, ShadowMap, Williams, presets};
-
-/// How a map is kept while it is looked up. Answers are the same bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Storage {
-    /// Every texel.
-    Raw,
-    /// The rectangle of finite depths (R87-19).
-    Bbox,
-    /// 32 × 32 tiles with their ranges (R87-21, R87-22).
-    #[default]
-    Tiled,
-}
-
-impl FromStr for Storage {
-    type Err = RecipeError;
-    fn from_str(text: &str) -> Result<Self, RecipeError> {
-        let known = [("raw", Self::Raw), ("bbox", Self::Bbox), ("tiled", Self::Tiled)];
-        values::one_of("storage", text, &known, "raw, bbox or tiled")
-    }
-}
 
 /// Puts a filter over a map in the storage that is asked for: where types end and the one dynamic seam begins.
 pub fn bind<F: Filter + 'static>(filter: F, map: impl Into<Map>, storage: Storage) -> Box<dyn Shadow> {

@@ -3,7 +3,7 @@
 use super::depth::{Choice, Depth};
 use super::values::{count, number, one_of, positive, share, switch};
 use super::{RecipeError, Set, over};
-use crate::Map;
+use umbrage_depth::Map;
 use umbrage_plane::Bias;
 use umbrage_sample::{
     Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Pattern, Tent, Uniform,

@@ -3,7 +3,7 @@
 use super::depth::{Choice, Depth};
 use super::values::{count, extent, number, one_of, positive, share, switch};
 use super::{RecipeError, Set, over};
-use crate::Map;
+use umbrage_depth::Map;
 use umbrage_plane::Bias;
 use umbrage_sample::{Density, Disc};
 use umbrage_shadow::{Biased, Extent, Falloff, Opacity, ReceiverDepth, Shadow, Soft, Softness, presets};

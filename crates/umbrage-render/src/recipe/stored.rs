@@ -2,8 +2,9 @@
 
 use super::values::{count, number, one_of, positive, share};
 use super::{RecipeError, Set};
-use crate::{Deep, Map, Soup, bake, bake_by_normals, bake_deep, bake_moments, bake_multi};
-use umbrage_depth::{BackFace, DepthRule, First, Midpoint, Same, Second, Tiled};
+use crate::{Deep, Soup, bake, bake_by_normals, bake_deep, bake_moments, bake_multi};
+use std::sync::Arc;
+use umbrage_depth::{BackFace, DepthRule, First, Map, Midpoint, Same, Second, Tiled};
 use umbrage_plane::View;
 use umbrage_raster::Cull;
 use umbrage_scene::Scene;
@@ -79,14 +80,13 @@ impl Stored {
             return bake_deep(view, moments, &self.deep).into();
         }
         match moments {
-            [scene] => self.flat(scene, view),
-            _ => bake_moments(view, moments, 0, |scene| self.flat(scene, view)),
+            [scene] => self.flat(scene, view).into(),
+            _ => bake_moments(view, moments, 0, |scene| self.flat(scene, view)).into(),
         }
-        .into()
     }
 
     /// One surface a texel.
-    fn flat(&self, scene: &Scene, view: &View) -> Tiled {
+    fn flat(&self, scene: &Scene, view: &View) -> Arc<Tiled> {
         let soup = Soup::casters(scene, view);
         match self.rule {
             Rule::First | Rule::Deep => self.sampled(&soup, view, &First, Cull::None),
@@ -98,7 +98,7 @@ impl Stored {
     }
 
     /// As many samples a texel as are asked for, one where so many do not fit.
-    fn sampled<R: DepthRule>(&self, soup: &Soup, view: &View, rule: &R, cull: Cull) -> Tiled {
+    fn sampled<R: DepthRule>(&self, soup: &Soup, view: &View, rule: &R, cull: Cull) -> Arc<Tiled> {
         let many =
             (self.sub_samples > 1).then(|| bake_multi(view, soup.triangles(), rule, cull, self.sub_samples).ok());
         many.flatten().unwrap_or_else(|| bake(view, soup.triangles(), rule, cull)).map

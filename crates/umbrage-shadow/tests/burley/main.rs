@@ -1,14 +1,13 @@
 //! Burley 2006: the bias cone and soft shadows from one map (B06-1 to B06-13, D-15, D-16).
 
-use fearless_simd::{Level, dispatch};
 use glam::{DVec3, IVec2, UVec2, Vec2, Vec3};
 use umbrage_depth::{DepthMap, Raw};
 use umbrage_plane::{Bias, Footprint, Kind, Receiver, Rules, SurfacePoint, TexelRect, View};
 use umbrage_sample::{Density, Disc, Key, Pattern, each_tap};
 use umbrage_shadow::as_printed::{BurleyListing, Sample, sample_blur, sample_depth, soft_radius, soft_shadow};
 use umbrage_shadow::{
-    Biased, Cone, Counters, Extent, Falloff, Filter, Opacity, Pcf, Probe, Radius, ReceiverDepth, Soft, Softness,
-    factor, presets,
+    Biased, Cone, Counters, Extent, Falloff, Filter, Opacity, Pcf, Probe, Radius, ReceiverDepth, ShadowMap, Soft,
+    Softness, factor, presets,
 };
 
 mod cone;
@@ -39,7 +38,7 @@ fn stored(view: &View, zeta: f64) -> f32 {
 }
 
 fn probe<F: Filter>(filter: &F, map: &impl DepthMap, receiver: &Receiver, key: Key, probe: &mut impl Probe) -> f32 {
-    dispatch!(Level::new(), simd => filter.shadow(simd, map, receiver, key, probe))
+    ShadowMap { filter, map }.fraction_of_probed(receiver, key, probe)
 }
 
 fn ask<F: Filter>(filter: &F, map: &impl DepthMap, receiver: &Receiver) -> f32 {
@@ -70,7 +69,7 @@ fn v62_b06_1_the_cone_corrected_and_as_printed_e_b1_e_b5() {
         // World units on the map: τ = 2·10/512 here, so that these radii are 0, 12.8 and 25.6 texels (V31's arithmetic).
         let nominal = Cone { radius: Radius::Nominal, ..cone };
         let at = Footprint::point(Vec2::new(256.5 + radius * 25.6, 256.5));
-        dispatch!(Level::new(), simd => umbrage_sample::Centre.taps(simd, &at, KEY, |taps| {
+        umbrage_plane::vectorized!(simd => umbrage_sample::Centre.taps(simd, &at, KEY, |taps| {
             lanes.push((nominal.lanes(simd, &view, &tip, taps)[0], corrected));
         }));
     }

@@ -1,13 +1,12 @@
 //! Wang & Molnar 1994: the rule of the nearby texels, the virtual samples, and the listing as printed (WM94-4 to WM94-15).
 
-use fearless_simd::{Level, dispatch};
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec2, Vec3};
 use proptest::prelude::*;
 use umbrage_depth::{DepthMap, Raw};
 use umbrage_plane::{Bias, Footprint, Kind, Receiver, Rules, SurfacePoint, TexelRect, View};
 use umbrage_sample::{EveryTexel, Key, Pattern, Tent};
 use umbrage_shadow::as_printed::{Division, percent_illumination};
-use umbrage_shadow::{Biased, Conditional, Counters, Filter, OnPlane, Pcf, Probe, VirtualWhen, presets};
+use umbrage_shadow::{Biased, Conditional, Counters, Filter, OnPlane, Pcf, Probe, ShadowMap, VirtualWhen, presets};
 
 mod planes;
 
@@ -52,7 +51,7 @@ fn probed<F: Filter>(filter: &F, map: &impl DepthMap, receiver: &Receiver) -> (f
 }
 
 fn ask<F: Filter>(filter: &F, map: &impl DepthMap, receiver: &Receiver, key: Key, probe: &mut impl Probe) -> f32 {
-    dispatch!(Level::new(), simd => filter.shadow(simd, map, receiver, key, probe))
+    ShadowMap { filter, map }.fraction_of_probed(receiver, key, probe)
 }
 
 #[test]

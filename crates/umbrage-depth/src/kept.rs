@@ -1,0 +1,147 @@
+use crate::{Bbox, DeepMap, DepthMap, Raw, Tiled, Translucent};
+use fearless_simd::{Simd, f32x16};
+use glam::IVec2;
+use std::str::FromStr;
+use std::sync::Arc;
+use umbrage_plane::{DepthRange, TexelRect, View};
+
+/// How a map of one surface per texel is kept while it is looked up. Answers are the same bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Storage {
+    /// Every texel.
+    Raw,
+    /// The rectangle around all surfaces (Reeves 1987, §3.3).
+    Bbox,
+    /// 32 × 32 tiles with their ranges (Reeves 1987, §3.3).
+    #[default]
+    Tiled,
+}
+
+/// A word that does not name a [`Storage`].
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("storage = {0:?}: expected raw, bbox or tiled")]
+pub struct StorageError(
+    /// The word.
+    pub String,
+);
+
+impl FromStr for Storage {
+    type Err = StorageError;
+
+    fn from_str(text: &str) -> Result<Self, StorageError> {
+        match text {
+            "raw" => Ok(Self::Raw),
+            "bbox" => Ok(Self::Bbox),
+            "tiled" => Ok(Self::Tiled),
+            _ => Err(StorageError(text.into())),
+        }
+    }
+}
+
+/// A light's map in whichever form it is kept: one type for all of them, so that each filter is compiled once. Clones share
+/// their depths.
+#[derive(Clone, Debug)]
+pub enum Map {
+    /// Every texel.
+    Raw(Arc<Raw>),
+    /// The rectangle around all surfaces.
+    Bbox(Arc<Bbox>),
+    /// Tiles: what pass 1 makes.
+    Tiled(Arc<Tiled>),
+    /// Several surfaces per texel, each letting light through.
+    Deep(Arc<DeepMap>),
+}
+
+/// The same expression over whichever map it is.
+macro_rules! each {
+    ($self:expr, $map:ident => $answer:expr) => {
+        match $self {
+            Map::Raw($map) => $answer,
+            Map::Bbox($map) => $answer,
+            Map::Tiled($map) => $answer,
+            Map::Deep($map) => $answer,
+        }
+    };
+}
+
+impl Map {
+    /// The same map in another storage; a deep one stays as it is. Nothing is copied where it is kept so already.
+    #[must_use]
+    pub fn kept(self, storage: Storage) -> Self {
+        match (storage, self) {
+            (_, kept @ Self::Deep(_))
+            | (Storage::Raw, kept @ Self::Raw(_))
+            | (Storage::Bbox, kept @ Self::Bbox(_))
+            | (Storage::Tiled, kept @ Self::Tiled(_)) => kept,
+            (Storage::Raw, map) => Raw::copy_of(&map).into(),
+            (Storage::Bbox, map) => Bbox::from(&Raw::copy_of(&map)).into(),
+            (Storage::Tiled, map) => Tiled::copy_of(&map).into(),
+        }
+    }
+}
+
+/// Conversions from one storage, owned or shared.
+macro_rules! from {
+    ($storage:ty, $variant:ident) => {
+        impl From<$storage> for Map {
+            fn from(map: $storage) -> Self {
+                Self::$variant(Arc::new(map))
+            }
+        }
+
+        impl From<Arc<$storage>> for Map {
+            fn from(map: Arc<$storage>) -> Self {
+                Self::$variant(map)
+            }
+        }
+
+        impl From<&Arc<$storage>> for Map {
+            fn from(map: &Arc<$storage>) -> Self {
+                Self::$variant(Arc::clone(map))
+            }
+        }
+    };
+}
+
+from!(Raw, Raw);
+from!(Bbox, Bbox);
+from!(Tiled, Tiled);
+from!(DeepMap, Deep);
+
+impl From<&Self> for Map {
+    /// The same map, shared.
+    fn from(map: &Self) -> Self {
+        map.clone()
+    }
+}
+
+impl DepthMap for Map {
+    #[inline(always)]
+    fn view(&self) -> &View {
+        each!(self, map => map.view())
+    }
+
+    #[inline(always)]
+    fn depth(&self, texel: IVec2) -> f32 {
+        each!(self, map => map.depth(texel))
+    }
+
+    #[inline(always)]
+    fn look<S: Simd>(&self, simd: S, within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
+        each!(self, map => map.look(simd, within, x, y))
+    }
+
+    #[inline(always)]
+    fn range(&self, rect: TexelRect) -> DepthRange {
+        each!(self, map => map.range(rect))
+    }
+
+    #[inline(always)]
+    fn translucent(&self) -> Option<&dyn Translucent> {
+        each!(self, map => map.translucent())
+    }
+
+    fn bytes(&self) -> usize {
+        each!(self, map => map.bytes())
+    }
+}

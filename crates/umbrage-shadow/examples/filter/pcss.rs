@@ -1,0 +1,32 @@
+use umbrage_depth::DepthMap;
+use umbrage_sample::Disc;
+use umbrage_shadow::{Cone, Filter, Met, Probe, Query, Simd};
+
+/// Percentage-closer soft shadows: the farther the occluders, the wider the blur.
+struct Pcss {
+    /// Where occluders are searched and the shadow is looked up.
+    taps: Disc,
+    /// Which depth is compared.
+    depth: Cone,
+    /// Width of the light, in texels of the map.
+    light: f32,
+}
+
+impl Filter for Pcss {
+    #[inline(always)]
+    fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32 {
+        let own = query.receiver().depth;
+        let (mut sum, mut weight) = (0.0, 0.0);
+        let search = query.region_around(glam::Vec2::splat(self.light));
+        query.each(&search, &self.taps, &self.depth, |seen| {
+            // Places outside the map or the cone hold no occluder; `share` gives them their answer below.
+            let Met::Surfaces(surfaces) = &seen.met else { return };
+            for (depth, stopped) in surfaces.iter().filter(|(depth, _)| *depth < seen.compared) {
+                sum += depth * stopped;
+                weight += stopped;
+            }
+        });
+        let width = if weight > 0.0 { self.light * (own * weight / sum - 1.0).max(0.0) } else { 0.0 };
+        query.share(&query.region_around(glam::Vec2::splat(width.max(0.5))), &self.taps, &self.depth)
+    }
+}

@@ -1,0 +1,457 @@
+use crate::depth::lane;
+use crate::{Filter, Probe, ReceiverDepth};
+use fearless_simd::{Simd, f32x16, prelude::*};
+use glam::{IVec2, Vec2, Vec3};
+use std::borrow::Cow;
+use umbrage_depth::{DepthMap, Step, Translucent};
+use umbrage_plane::{Footprint, Receiver, TexelRect, Verdict, View, floor_texel};
+use umbrage_sample::{Key, Pattern, Tap, Taps};
+
+/// One receiver asked of one map: everything that a [`Filter`] works with.
+///
+/// What every filter must get right is here once: the limit on a region's size, the rules for places outside the map and the
+/// cone, what deep maps let through, weights, counts and culling. A filter that gives its answer by [`share`](Self::share), or
+/// that honours what [`each`](Self::each) reports, has all of it.
+pub struct Query<'a, S: Simd, M, P> {
+    simd: S,
+    map: &'a M,
+    receiver: &'a Receiver,
+    key: Key,
+    channel: Channel,
+    probe: &'a mut P,
+    /// Texels read; `None` before the first look-up.
+    looked: Option<u32>,
+}
+
+/// Which light a query is about, where a deep map colours it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Channel {
+    /// The mean of red, green and blue.
+    All,
+    /// Red, green or blue: 0, 1 or 2.
+    One(usize),
+}
+
+impl Channel {
+    /// What passes of this light.
+    #[inline(always)]
+    fn of(self, passes: Vec3, grey: bool) -> f32 {
+        match self {
+            Self::One(channel) => passes[channel],
+            Self::All if grey => passes.x,
+            Self::All => passes.element_sum() * (1.0 / 3.0),
+        }
+    }
+}
+
+/// What [`Query::each`] reports of one tap.
+pub struct Seen<'a> {
+    /// Where it is, and its weight.
+    pub tap: Tap,
+    /// The receiver's depth there, bias included.
+    pub compared: f32,
+    /// What is there.
+    pub met: Met<'a>,
+}
+
+impl Seen<'_> {
+    /// The fraction of the light that does not arrive at this tap, in 0..=1: what percentage-closer filtering averages.
+    #[inline(always)]
+    pub fn dark(&self) -> f32 {
+        match &self.met {
+            Met::Settled(dark) => *dark,
+            Met::Surfaces(surfaces) => surfaces.dark(self.compared),
+        }
+    }
+}
+
+/// What a tap meets.
+pub enum Met<'a> {
+    /// Its place settles the answer by the view's [`Rules`](umbrage_plane::Rules): 0 is lit, 1 is in shadow. Whatever the map
+    /// holds there does not count.
+    Settled(f32),
+    /// What the map stores there.
+    Surfaces(Surfaces<'a>),
+}
+
+/// The surfaces over one texel, as one colour of light meets them. A plain map has one opaque surface, or none.
+#[derive(Clone, Debug)]
+pub struct Surfaces<'a>(Stack<'a>);
+
+#[derive(Clone, Debug)]
+enum Stack<'a> {
+    Opaque(f32),
+    Deep { steps: Cow<'a, [Step]>, channel: Channel, grey: bool },
+}
+
+impl Surfaces<'_> {
+    /// The fraction of the light that surfaces nearer than `depth` stop, in 0..=1. A surface at `depth` itself is not nearer.
+    #[inline(always)]
+    pub fn dark(&self, depth: f32) -> f32 {
+        match &self.0 {
+            Stack::Opaque(stored) => f32::from(u8::from(depth > *stored)),
+            Stack::Deep { steps, channel, grey } => {
+                let nearer = steps.partition_point(|step| step.depth < depth);
+                if nearer == 0 { 0.0 } else { 1.0 - channel.of(steps[nearer - 1].passes, *grey) }
+            }
+        }
+    }
+
+    /// The depth of the nearest surface, opaque or not; +∞ without one.
+    #[inline(always)]
+    pub fn nearest(&self) -> f32 {
+        match &self.0 {
+            Stack::Opaque(stored) => *stored,
+            Stack::Deep { steps, .. } => steps.first().map_or(f32::INFINITY, |step| step.depth),
+        }
+    }
+
+    /// Each surface, nearest first: its depth and the fraction of the light that it stops of what left the lamp. The fractions of a
+    /// texel add up to 1 where nothing passes.
+    pub fn iter(&self) -> impl Iterator<Item = (f32, f32)> + '_ {
+        let (plain, deep) = match &self.0 {
+            Stack::Opaque(stored) => ((*stored < f32::INFINITY).then_some((*stored, 1.0)), None),
+            Stack::Deep { steps, channel, grey } => {
+                let mut left = 1.0;
+                let stopped = steps.iter().map(move |step| {
+                    let before = std::mem::replace(&mut left, channel.of(step.passes, *grey));
+                    (step.depth, before - left)
+                });
+                (None, Some(stopped))
+            }
+        };
+        plain.into_iter().chain(deep.into_iter().flatten())
+    }
+}
+
+impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
+    /// Asks `map` about `receiver`, whose depth is of the map's kind. `key` is the region's own, and `probe` observes.
+    #[inline(always)]
+    pub fn new(simd: S, map: &'a M, receiver: &'a Receiver, key: Key, probe: &'a mut P) -> Self {
+        Self { simd, map, receiver, key, channel: Channel::All, probe, looked: None }
+    }
+
+    /// The same for one colour of light.
+    #[inline(always)]
+    pub(crate) fn of_channel(self, channel: Channel) -> Self {
+        Self { channel, ..self }
+    }
+
+    /// The answer of a filter; `probe` is given the count of texels.
+    #[inline(always)]
+    pub fn ask(mut self, filter: &impl Filter) -> f32 {
+        let dark = filter.shadow(&mut self);
+        if let Some(texels) = self.looked {
+            self.probe.looked(texels);
+        }
+        dark
+    }
+
+    /// The map's view.
+    #[inline(always)]
+    pub fn view(&self) -> &'a View {
+        self.map.view()
+    }
+
+    /// The receiver.
+    #[inline(always)]
+    pub fn receiver(&self) -> &'a Receiver {
+        self.receiver
+    }
+
+    /// Names the region; random numbers are drawn by it.
+    #[inline(always)]
+    pub fn key(&self) -> Key {
+        self.key
+    }
+
+    /// Observes what the filter does.
+    #[inline(always)]
+    pub fn probe(&mut self) -> &mut P {
+        self.probe
+    }
+
+    /// The map itself, for what a region or a texel cannot say.
+    #[inline(always)]
+    pub(crate) fn map(&self) -> &'a M {
+        self.map
+    }
+
+    /// The receiver's own footprint, enlarged: its half-extents times `res_factor`, at least `min_size` texels, and at most a quarter of
+    /// the map to each side.
+    #[inline(always)]
+    pub fn region(&self, res_factor: f32, min_size: f32) -> Footprint {
+        self.receiver.footprint.scaled(res_factor, min_size, self.limit())
+    }
+
+    /// A box of half-extents `half` (texels) about the receiver's footprint, no narrower than that and at most a quarter of the map to
+    /// each side.
+    #[inline(always)]
+    pub fn region_around(&self, half: Vec2) -> Footprint {
+        let own = self.receiver.footprint;
+        Footprint::boxed(own.centre, half.max(own.half).min(self.limit()))
+    }
+
+    /// Greatest half-extents of any region: a quarter of the map.
+    #[inline(always)]
+    fn limit(&self) -> Vec2 {
+        self.view().size().as_vec2() * 0.25
+    }
+
+    /// The answer where the place of a texel position alone settles it by the view's rules: 0 lit, 1 in shadow.
+    #[inline(always)]
+    pub fn placed(&mut self, texel: Vec2) -> Option<f32> {
+        let place = self.view().locate(texel);
+        let dark = answer(self.view().rules().verdict(place))?;
+        self.probe.placed(place);
+        Some(dark)
+    }
+
+    /// The answer for a whole region where depth ranges settle it without a look-up: 0 lit, 1 in shadow. `None` where they do not, and
+    /// always `None` over deep maps and for regions that reach out of the map or the cone.
+    ///
+    /// It never differs from what [`share`](Self::share) answers.
+    #[inline(always)]
+    pub fn settled(&mut self, region: &Footprint, depth: &impl ReceiverDepth) -> Option<f32> {
+        let view = self.view();
+        if self.map.translucent().is_some() || !view.holds(region.centre, region.half) {
+            return None;
+        }
+        let rect = TexelRect::around(region.centre, region.half);
+        let (stored, compared) = (self.map.range(rect), depth.bounds(view, self.receiver, rect));
+        let dark = if compared.max <= stored.min {
+            false
+        } else if compared.min > stored.max {
+            true
+        } else {
+            return None;
+        };
+        self.probe.culled(dark);
+        Some(f32::from(u8::from(dark)))
+    }
+
+    /// The fraction of a region's taps that are in shadow, weights included; 0 where there is no tap.
+    ///
+    /// Taps outside the map or the cone answer by the view's rules (C-10), texels of deep maps by what passes them (B06-11).
+    #[inline(always)]
+    pub fn share(&mut self, region: &Footprint, pattern: &impl Pattern, depth: &impl ReceiverDepth) -> f32 {
+        self.share_by(
+            region,
+            pattern,
+            depth,
+            #[inline(always)]
+            |_, compared, stored, _| compared.simd_gt(stored).to_bitmask() as u32,
+        )
+    }
+
+    /// [`Query::share`] with another way to compare: `behind` reports, of sixteen compared and stored depths and the mask of those that
+    /// count, which are behind what is stored. Deep maps are not compared by it.
+    #[inline(always)]
+    pub(crate) fn share_by(
+        &mut self,
+        region: &Footprint,
+        pattern: &impl Pattern,
+        depth: &impl ReceiverDepth,
+        mut behind: impl FnMut(&mut P, f32x16<S>, f32x16<S>, u32) -> u32,
+    ) -> f32 {
+        let (simd, map, receiver, channel) = (self.simd, self.map, self.receiver, self.channel);
+        let view = map.view();
+        let rect = TexelRect::around(region.centre, region.half);
+        let inside = view.holds(region.centre, region.half);
+        let deep = map.translucent();
+        let weighted = pattern.weighted();
+        let probe = &mut *self.probe;
+        let (mut hits, mut count, mut looked) = (0.0, 0.0, 0);
+        pattern.taps(
+            simd,
+            region,
+            self.key,
+            #[inline(always)]
+            |taps| {
+                let compared = depth.lanes(simd, view, receiver, taps);
+                looked += taps.mask.count_ones();
+                if let Some(deep) = deep {
+                    let from = Passing { deep, channel, view, inside, weighted };
+                    from.add(simd, taps, compared, (&mut hits, &mut count));
+                    return;
+                }
+                let stored = map.look(simd, rect, taps.x, taps.y);
+                let mut nearer = behind(probe, compared, stored, taps.mask) & taps.mask;
+                if !inside {
+                    nearer = by_rules(view, taps, nearer);
+                }
+                if weighted {
+                    for i in 0..16 {
+                        let weight = if taps.mask >> i & 1 == 1 { taps.weight[i] } else { 0.0 };
+                        count += weight;
+                        hits += if nearer >> i & 1 == 1 { weight } else { 0.0 };
+                    }
+                } else {
+                    count += taps.mask.count_ones() as f32;
+                    hits += nearer.count_ones() as f32;
+                }
+            },
+        );
+        self.count(looked);
+        if count > 0.0 { hits / count } else { 0.0 }
+    }
+
+    /// Calls `f` with every tap of a region: what it meets, and the depth that is compared there. This is for transforms other than
+    /// "is it nearer?" (Reeves 1987, §6); mean [`Seen::dark`], weighted by [`Tap::weight`], is what [`Query::share`] gives.
+    ///
+    /// ```
+    /// # use umbrage_shadow::{Biased, Filter, Met, Probe, Query, Simd};
+    /// # use umbrage_depth::DepthMap;
+    /// /// The mean depth of what the map stores nearer than the receiver, or +∞: the first half of a soft shadow.
+    /// fn blockers<S: Simd, M: DepthMap, P: Probe>(query: &mut Query<'_, S, M, P>) -> f32 {
+    ///     let (mut sum, mut weight) = (0.0, 0.0);
+    ///     let region = query.region(1.0, 4.0);
+    ///     query.each(&region, &umbrage_sample::EveryTexel, &Biased::default(), |seen| {
+    ///         let Met::Surfaces(surfaces) = &seen.met else { return };
+    ///         for (depth, stopped) in surfaces.iter().filter(|(depth, _)| *depth < seen.compared) {
+    ///             sum += depth * stopped;
+    ///             weight += stopped;
+    ///         }
+    ///     });
+    ///     if weight > 0.0 { sum / weight } else { f32::INFINITY }
+    /// }
+    /// ```
+    #[inline(always)]
+    pub fn each(
+        &mut self,
+        region: &Footprint,
+        pattern: &impl Pattern,
+        depth: &impl ReceiverDepth,
+        mut f: impl FnMut(&Seen<'_>),
+    ) {
+        let (simd, map, receiver) = (self.simd, self.map, self.receiver);
+        let view = map.view();
+        let rect = TexelRect::around(region.centre, region.half);
+        let inside = view.holds(region.centre, region.half);
+        let this = &*self;
+        let mut looked = 0;
+        pattern.taps(
+            simd,
+            region,
+            self.key,
+            #[inline(always)]
+            |taps| {
+                let compared = depth.lanes(simd, view, receiver, taps);
+                let stored = map.look(simd, rect, taps.x, taps.y);
+                looked += taps.mask.count_ones();
+                for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
+                    let tap = taps.tap(i);
+                    let ruled = if inside { None } else { by_rule(view, tap.at) };
+                    let met = ruled.map_or_else(
+                        || Met::Surfaces(this.surfaces(tap.at.floor().as_ivec2(), stored[i])),
+                        Met::Settled,
+                    );
+                    f(&Seen { tap, compared: compared[i], met });
+                }
+            },
+        );
+        self.count(looked);
+    }
+
+    /// The nearest surfaces under sixteen taps at a time, whatever passes them: `f` is given the taps, the compared and the stored
+    /// depths. Rules are left to the caller.
+    #[inline(always)]
+    pub(crate) fn nearest(
+        &mut self,
+        region: &Footprint,
+        pattern: &impl Pattern,
+        depth: &impl ReceiverDepth,
+        mut f: impl FnMut(&Taps<S>, f32x16<S>, f32x16<S>),
+    ) {
+        let (simd, map, receiver) = (self.simd, self.map, self.receiver);
+        let view = map.view();
+        let rect = TexelRect::around(region.centre, region.half);
+        let mut looked = 0;
+        pattern.taps(
+            simd,
+            region,
+            self.key,
+            #[inline(always)]
+            |taps| {
+                looked += taps.mask.count_ones();
+                f(taps, depth.lanes(simd, view, receiver, taps), map.look(simd, rect, taps.x, taps.y));
+            },
+        );
+        self.count(looked);
+    }
+
+    /// What one texel stores. Places outside the map hold nothing; whether they are lit is for [`Query::placed`] to say.
+    #[inline(always)]
+    pub fn texel(&mut self, texel: IVec2) -> Surfaces<'a> {
+        self.count(1);
+        self.surfaces(texel, self.map.depth(texel))
+    }
+
+    #[inline(always)]
+    fn surfaces(&self, texel: IVec2, stored: f32) -> Surfaces<'a> {
+        Surfaces(match self.map.translucent() {
+            None => Stack::Opaque(stored),
+            Some(deep) => Stack::Deep { steps: deep.steps(texel), channel: self.channel, grey: deep.is_grey() },
+        })
+    }
+
+    #[inline(always)]
+    pub(crate) fn count(&mut self, texels: u32) {
+        self.looked = Some(self.looked.unwrap_or(0) + texels);
+    }
+}
+
+/// What a deep map lets through at taps.
+struct Passing<'a> {
+    deep: &'a dyn Translucent,
+    channel: Channel,
+    view: &'a View,
+    /// Whether all taps lie inside the map and the cone.
+    inside: bool,
+    weighted: bool,
+}
+
+impl Passing<'_> {
+    /// Adds what does not pass at each tap, and the taps' weights.
+    #[inline(always)]
+    fn add<S: Simd>(&self, simd: S, taps: &Taps<S>, compared: f32x16<S>, (hits, count): (&mut f32, &mut f32)) {
+        let grey = self.deep.is_grey();
+        let (column, row) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
+        for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
+            let weight = if self.weighted { taps.weight[i] } else { 1.0 };
+            let ruled = if self.inside { None } else { by_rule(self.view, lane(taps, i)) };
+            let passes = || self.deep.transmittance(IVec2::new(column[i], row[i]), compared[i]);
+            *count += weight;
+            *hits += weight * ruled.unwrap_or_else(|| 1.0 - self.channel.of(passes(), grey));
+        }
+    }
+}
+
+/// The hits of a batch of taps with those outside the map or the cone answered by the view's rules (spec C-10, W92-6).
+#[inline(always)]
+fn by_rules<S: Simd>(view: &View, taps: &Taps<S>, mut nearer: u32) -> u32 {
+    for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
+        match by_rule(view, lane(taps, i)) {
+            Some(dark) if dark > 0.0 => nearer |= 1 << i,
+            Some(_) => nearer &= !(1 << i),
+            None => {}
+        }
+    }
+    nearer
+}
+
+/// The answer of one tap whose place settles it.
+#[inline(always)]
+fn by_rule(view: &View, texel: Vec2) -> Option<f32> {
+    answer(view.rules().verdict(view.locate(texel)))
+}
+
+/// The fraction in shadow that a verdict stands for; `None` where the map must be asked.
+#[inline(always)]
+pub(crate) fn answer(verdict: Verdict) -> Option<f32> {
+    match verdict {
+        Verdict::Lit => Some(0.0),
+        Verdict::Shadowed => Some(1.0),
+        Verdict::Compare => None,
+    }
+}
