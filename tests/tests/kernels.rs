@@ -79,7 +79,8 @@ fn naive<P: Pattern>(filter: &Pcf<P, Biased>, map: &Raw, receiver: &Receiver, ke
 fn twin<P: Pattern + Copy>(pattern: P, maps: &[Tiled]) {
     for map in maps {
         let raw = Raw::from(map);
-        let filter = Pcf { pattern, depth: Biased::default(), res_factor: 1.5, min_size: 0.0, cull: true };
+        let filter =
+            Pcf::default().with_pattern(pattern).with_depth(Biased::default()).with_res_factor(1.5).with_min_size(0.0);
         for (i, receiver) in receivers(map, 3000).iter().enumerate() {
             let key = KEY.region(i as u32);
             let (ours, plain) = (ask(&filter, map, receiver, key), naive(&filter, &raw, receiver, key));
@@ -97,10 +98,10 @@ fn r87_13_r87_22_simd_and_culling_agree_with_one_tap_at_a_time() {
     ];
     twin(Centre, &maps);
     twin(EveryTexel, &maps);
-    twin(Uniform { num_samples: 23 }, &maps);
+    twin(Uniform::default().with_num_samples(23), &maps);
     twin(Gaussian::default(), &maps);
     twin(Jittered::default(), &maps);
-    twin(Jittered { num_samples: 64, min_samples: 3, ..Jittered::default() }, &maps);
+    twin(Jittered::default().with_num_samples(64).with_min_samples(3), &maps);
     twin(InsideQuadReject::default(), &maps);
     twin(InsideQuadWarp::default(), &maps);
     twin(Disc::default(), &maps);
@@ -133,20 +134,36 @@ fn r87_19_r87_21_every_filter_answers_alike_over_every_storage() {
     ] {
         let map = baked(kind, sampling);
         storages_agree("pcf", &Pcf::default(), &map);
-        storages_agree("pcf, uncut", &Pcf { cull: false, ..Pcf::default() }, &map);
+        storages_agree("pcf, uncut", &Pcf::default().with_cull(false), &map);
         storages_agree("every texel", &on_plane(EveryTexel), &map);
         storages_agree("warped", &on_plane(InsideQuadWarp::default()), &map);
         storages_agree("disc", &on_plane(Disc::default()), &map);
-        storages_agree("ordinary", &Ordinary { pattern: EveryTexel, bias: Bias::World(0.3), res_factor: 2.0 }, &map);
+        storages_agree(
+            "ordinary",
+            &Ordinary::default().with_pattern(EveryTexel).with_bias(Bias::World(0.3)).with_res_factor(2.0),
+            &map,
+        );
         let bilinear = Lookup::Bilinear(Guard::default());
-        storages_agree("williams", &Williams { bias: Bias::ZERO, lookup: bilinear, dither: Dither::HALF_TEXEL }, &map);
+        storages_agree(
+            "williams",
+            &Williams::default().with_bias(Bias::ZERO).with_lookup(bilinear).with_dither(Dither::HALF_TEXEL),
+            &map,
+        );
         let faithful = Lookup::Bilinear(Guard::Faithful);
-        storages_agree("faithful", &Williams { bias: Bias::Steps(1.0), lookup: faithful, dither: Dither::OFF }, &map);
+        storages_agree(
+            "faithful",
+            &Williams::default().with_bias(Bias::Steps(1.0)).with_lookup(faithful).with_dither(Dither::OFF),
+            &map,
+        );
     }
 }
 
 fn on_plane<P: Pattern>(pattern: P) -> Pcf<P, OnPlane> {
-    Pcf { pattern, depth: OnPlane::biased(Bias::Texels(0.5)), res_factor: 1.0, min_size: 1.0, cull: true }
+    Pcf::default()
+        .with_pattern(pattern)
+        .with_depth(OnPlane::biased(Bias::Texels(0.5)))
+        .with_res_factor(1.0)
+        .with_min_size(1.0)
 }
 
 #[test]
@@ -162,15 +179,22 @@ fn w92_7_wm94_5_b06_6_woo_s_wang_and_molnar_s_and_burley_s_filters_answer_alike_
         let nearest = presets::wang_molnar94();
         storages_agree("wang and molnar", &nearest, &map);
         let Conditional { plane, min_cos, when, dark_backs, .. } = nearest;
-        let tent = Conditional { pattern: Tent, res_factor: 1.0, min_size: 1.0, plane, min_cos, when, dark_backs };
+        let tent = Conditional::default()
+            .with_pattern(Tent)
+            .with_res_factor(1.0)
+            .with_min_size(1.0)
+            .with_plane(plane)
+            .with_min_cos(min_cos)
+            .with_when(when)
+            .with_dark_backs(dark_backs);
         storages_agree("weighted", &tent, &map);
         let burley = presets::burley();
         storages_agree("burley", &burley, &map);
-        storages_agree("rescued", &Soft { rescue: true, ..burley }, &map);
+        storages_agree("rescued", &burley.with_rescue(true), &map);
         let softness = Softness::Between { min: Extent::Share(0.01), max: Extent::World(9.0) };
-        let opacity = Opacity { near: 0.9, far: 0.2, fade: 20.0, gamma: 0.7 };
-        storages_agree("faint", &Soft { softness, opacity, radius_gamma: 0.5, ..burley }, &map);
-        storages_agree("light", &Soft { softness: Softness::Light { radius: 4.0, nearest: 20.0 }, ..burley }, &map);
+        let opacity = Opacity::default().with_near(0.9).with_far(0.2).with_fade(20.0).with_gamma(0.7);
+        storages_agree("faint", &burley.with_softness(softness).with_opacity(opacity).with_radius_gamma(0.5), &map);
+        storages_agree("light", &burley.with_softness(Softness::Light { radius: 4.0, nearest: 20.0 }), &map);
         storages_agree("fernando", &presets::fernando(Bias::World(0.5)), &map);
     }
 }
@@ -179,7 +203,14 @@ fn w92_7_wm94_5_b06_6_woo_s_wang_and_molnar_s_and_burley_s_filters_answer_alike_
 #[test]
 fn r87_22_culling_changes_no_answer_whatever_depth_is_compared() {
     fn both_ways<D: ReceiverDepth + Copy>(name: &str, depth: D, map: &Tiled) {
-        let filter = |cull| Pcf { pattern: Disc::default(), depth, res_factor: 1.0, min_size: 1.0, cull };
+        let filter = |cull| {
+            Pcf::default()
+                .with_pattern(Disc::default())
+                .with_depth(depth)
+                .with_res_factor(1.0)
+                .with_min_size(1.0)
+                .with_cull(cull)
+        };
         for (i, receiver) in receivers(map, 3000).iter().enumerate() {
             let key = KEY.region(i as u32);
             let (with, without) = (ask(&filter(true), map, receiver, key), ask(&filter(false), map, receiver, key));
@@ -189,8 +220,8 @@ fn r87_22_culling_changes_no_answer_whatever_depth_is_compared() {
     for kind in [Kind::Axial, Kind::Screen, Kind::Radial] {
         let map = baked(kind, Sampling::Jittered { seed: 5 });
         both_ways("cone", Cone::default(), &map);
-        both_ways("nominal", Cone { radius: Radius::Nominal, base: 0.1, slope: 0.5 }, &map);
-        both_ways("near plane", OnPlane { slack: 1.0, reach: 0.5, ..OnPlane::default() }, &map);
+        both_ways("nominal", Cone::default().with_radius(Radius::Nominal).with_base(0.1).with_slope(0.5), &map);
+        both_ways("near plane", OnPlane::default().with_slack(1.0).with_reach(0.5), &map);
     }
 }
 
@@ -199,10 +230,10 @@ fn bounds_enclose_every_compared_depth() {
     for kind in [Kind::Axial, Kind::Screen, Kind::Radial] {
         let map = baked(kind, Sampling::Jittered { seed: 2 });
         encloses("plane", &OnPlane::biased(Bias::World(0.2)), &map);
-        encloses("near plane", &OnPlane { slack: 1.0, reach: 0.25, bias: Bias::Texels(0.5) }, &map);
+        encloses("near plane", &OnPlane::default().with_slack(1.0).with_reach(0.25).with_bias(Bias::Texels(0.5)), &map);
         encloses("biased", &Biased::default(), &map);
         encloses("cone", &Cone::default(), &map);
-        encloses("nominal cone", &Cone { base: 0.3, slope: 1.0, radius: Radius::Nominal }, &map);
+        encloses("nominal cone", &Cone::default().with_base(0.3).with_slope(1.0).with_radius(Radius::Nominal), &map);
     }
 }
 

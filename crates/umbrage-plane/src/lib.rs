@@ -27,6 +27,7 @@
 
 mod affine;
 mod around;
+mod builders;
 mod footprint;
 mod planar;
 mod policy;

@@ -20,6 +20,7 @@ pub enum Density {
 ///
 /// Point i of n has angle 2π·i/n, counted from +x toward +y, and a radius made from the radical inverse of i.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Disc {
     /// Taps a region; 0 counts as 1. Powers of two are spread best.
     pub num_samples: u32,
@@ -36,6 +37,13 @@ impl Default for Disc {
         Self { num_samples: 32, density: Density::Uniform, rotate: true, half_offset: false }
     }
 }
+
+umbrage_plane::builders!([] Disc {
+    with_num_samples num_samples: u32,
+    with_density density: Density,
+    with_rotate rotate: bool,
+    with_half_offset half_offset: bool,
+});
 
 /// Base-2 radical inverse: the bits of `index` mirrored about the binary point, in \[0, 1). The last 8 bits of 32 are dropped.
 #[inline(always)]

@@ -11,6 +11,7 @@ use umbrage_plane::Footprint;
 /// deviation open. Drawing again whatever falls outside would take a varying number of draws (0.911 of them
 /// stay inside, V25); the same law is reached here by inverting its distribution, with one draw an axis (C-9).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Gaussian {
     /// Taps a region; 0 counts as 1.
     pub num_samples: u32,
@@ -21,6 +22,8 @@ impl Default for Gaussian {
         Self { num_samples: 16 }
     }
 }
+
+umbrage_plane::builders!([] Gaussian { with_num_samples num_samples: u32 });
 
 impl Pattern for Gaussian {
     #[inline(always)]

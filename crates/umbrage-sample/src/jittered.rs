@@ -12,6 +12,7 @@ use umbrage_plane::Footprint;
 /// Departures from the printed listing: (1) both counts are at least `min_samples` and never 0 (E-R5, E-R6);
 /// (2) the jitter spans the whole cell, so that no part of the box is left out (E-R9, V09); (3) a region without extent is one tap (E-R17).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Jittered {
     /// Wanted number of taps; 0 counts as 1, and no more than 65,536 are taken. Not a bound: up to half as many again are used with
     /// `min_samples` 1, up to `min_samples` times as many otherwise (E-R7).
@@ -30,6 +31,13 @@ impl Default for Jittered {
         Self { num_samples: 16, min_samples: 1, jitter: 1.0, hard_cap: false }
     }
 }
+
+umbrage_plane::builders!([] Jittered {
+    with_num_samples num_samples: u32,
+    with_min_samples min_samples: u32,
+    with_jitter jitter: f32,
+    with_hard_cap hard_cap: bool,
+});
 
 /// (k − ½)² for k = 1 to 16.
 const HALVES_SQUARED: [f32; 16] = {

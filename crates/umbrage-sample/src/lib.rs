@@ -13,6 +13,7 @@
 //! | [`Jittered`] | Reeves 1987, Fig. 3c and 4 | one in each cell of a grid over the box: the default |
 //! | [`InsideQuadReject`], [`InsideQuadWarp`] | Reeves 1987, Fig. 3d | inside the region's quadrilateral |
 //! | [`Disc`] | Burley 2006 | Hammersley points on a disc |
+//! | [`AnyPattern`] | | any of them, chosen when the program runs |
 //!
 //! ```
 //! use glam::Vec2;
@@ -31,6 +32,7 @@
 //!
 //! This crate knows no map and no depth: what a tap finds is its caller's business.
 
+mod any;
 mod centre;
 mod disc;
 mod every_texel;
@@ -43,6 +45,7 @@ mod taps;
 mod tent;
 mod uniform;
 
+pub use any::AnyPattern;
 pub use centre::Centre;
 pub use disc::{Density, Disc, hammersley, radical_inverse, radical_inverses};
 pub use every_texel::EveryTexel;

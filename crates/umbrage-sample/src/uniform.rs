@@ -7,6 +7,7 @@ use umbrage_plane::Footprint;
 
 /// Independent positions, uniform in the bounding box (Reeves 1987, Fig. 3a; R87-11 a). *Luxo Jr.* was made with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Uniform {
     /// Taps a region; 0 counts as 1.
     pub num_samples: u32,
@@ -17,6 +18,8 @@ impl Default for Uniform {
         Self { num_samples: 16 }
     }
 }
+
+umbrage_plane::builders!([] Uniform { with_num_samples num_samples: u32 });
 
 impl Pattern for Uniform {
     #[inline(always)]

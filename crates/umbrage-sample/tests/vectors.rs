@@ -24,7 +24,8 @@ fn boxed(x: f32, y: f32, a: f32, b: f32) -> Footprint {
 }
 
 fn counts(a: f32, b: f32, num_samples: u32, min_samples: u32) -> (u32, u32) {
-    let UVec2 { x, y } = Jittered { num_samples, min_samples, ..Jittered::default() }.counts(Vec2::new(a, b));
+    let UVec2 { x, y } =
+        Jittered::default().with_num_samples(num_samples).with_min_samples(min_samples).counts(Vec2::new(a, b));
     (x, y)
 }
 
@@ -106,7 +107,7 @@ fn e_r7_never_more_than_half_as_many_again() {
 #[test]
 fn v08_cell_centres_and_the_span_of_the_jitter_e_r9() {
     let region = boxed(100.25, 50.0, 2.0, 2.0);
-    let regular = Jittered { jitter: 0.0, ..Jittered::default() };
+    let regular = Jittered::default().with_jitter(0.0);
     let columns: Vec<f32> = taps(&regular, &region, KEY).iter().take(4).map(|tap| tap.at.x).collect();
     assert_eq!(columns, [98.75, 99.75, 100.75, 101.75]);
     let (mut least, mut most) = (0.0f32, 0.0f32);
@@ -156,10 +157,10 @@ fn v19_variance_of_uniform_and_jittered_samples_at_an_edge_d_12() {
         (8, 0.5625, 0.003_845_215, 0.000_488_281_25),
     ] {
         let num_samples = n * n;
-        let found = edge_variance(&Uniform { num_samples }, share, n as f32);
+        let found = edge_variance(&Uniform::default().with_num_samples(num_samples), share, n as f32);
         close(found.0, share, 4.0 * (uniform / 60_000f64).sqrt());
         close(found.1, uniform, 0.03 * uniform);
-        let found = edge_variance(&Jittered { num_samples, ..Jittered::default() }, share, n as f32);
+        let found = edge_variance(&Jittered::default().with_num_samples(num_samples), share, n as f32);
         close(found.0, share, 4.0 * (jittered / 60_000f64).sqrt() + 1e-9);
         close(found.1, jittered, 0.03 * jittered + 1e-12);
     }
@@ -219,7 +220,7 @@ fn v60_hammersley_points() {
         assert_eq!(hammersley(i, 8), Vec2::new(i as f32 / 8.0, want));
     }
     let unit = boxed(0.0, 0.0, 1.0, 1.0);
-    let plain = Disc { num_samples: 8, rotate: false, ..Disc::default() };
+    let plain = Disc::default().with_num_samples(8).with_rotate(false);
     let blur = [
         (0.0, 0.0),
         (0.5, 0.5),
@@ -241,7 +242,7 @@ fn v60_hammersley_points() {
         (0.618_718, -0.618_718),
     ];
     for (density, want) in [(Density::Uniform, blur), (Density::Centred, depth)] {
-        for (tap, want) in taps(&Disc { density, ..plain }, &unit, KEY).iter().zip(want) {
+        for (tap, want) in taps(&plain.with_density(density), &unit, KEY).iter().zip(want) {
             assert!((tap.at - Vec2::from(want)).abs().max_element() < 1e-6, "{} is not {want:?}", tap.at);
         }
     }
@@ -251,7 +252,7 @@ fn v60_hammersley_points() {
 fn v61_moments_of_sixteen_hammersley_points_d_14() {
     let unit = boxed(0.0, 0.0, 1.0, 1.0);
     let radii = |density| {
-        let disc = Disc { num_samples: 16, density, ..Disc::default() };
+        let disc = Disc::default().with_num_samples(16).with_density(density);
         taps(&disc, &unit, KEY).iter().map(|tap| f64::from(tap.at.length())).collect::<Vec<_>>()
     };
     let mean = |radii: &[f64], power: i32| radii.iter().map(|r| r.powi(power)).sum::<f64>() / 16.0;
@@ -267,7 +268,7 @@ fn v61_moments_of_sixteen_hammersley_points_d_14() {
 
 #[test]
 fn e_b8_half_offset_makes_the_mean_radius_unbiased() {
-    let disc = Disc { num_samples: 16, density: Density::Centred, half_offset: true, ..Disc::default() };
+    let disc = Disc::default().with_num_samples(16).with_density(Density::Centred).with_half_offset(true);
     let all = taps(&disc, &boxed(0.0, 0.0, 1.0, 1.0), KEY);
     close(all.iter().map(|tap| f64::from(tap.at.length())).sum::<f64>() / 16.0, 0.5, 1e-6);
 }
@@ -275,7 +276,7 @@ fn e_b8_half_offset_makes_the_mean_radius_unbiased() {
 #[test]
 fn disc_turns_by_the_angle_of_its_region() {
     let region = boxed(5.0, 7.0, 2.0, 2.0);
-    let still = taps(&Disc { rotate: false, ..Disc::default() }, &region, KEY);
+    let still = taps(&Disc::default().with_rotate(false), &region, KEY);
     let turned = taps(&Disc::default(), &region, KEY);
     let angle = f64::from(KEY.unit(0, 0)) * std::f64::consts::TAU;
     for (still, turned) in still.iter().zip(&turned) {
@@ -313,7 +314,7 @@ fn every_texel_is_half_open_and_never_empty() {
 #[test]
 fn r87_15_a_region_without_extent_is_one_look_up_e_r17() {
     let point = Footprint::point(Vec2::new(3.25, 4.5));
-    for pattern in [Jittered::default(), Jittered { min_samples: 3, ..Jittered::default() }] {
+    for pattern in [Jittered::default(), Jittered::default().with_min_samples(3)] {
         assert_eq!(taps(&pattern, &point, KEY), taps(&Centre, &point, KEY));
     }
     assert_eq!(taps(&Centre, &boxed(3.25, 4.5, 9.0, 9.0), KEY)[0].at, point.centre);
@@ -363,8 +364,7 @@ fn fig_3d_taps_stay_inside_the_quadrilateral_of_v42() {
 fn inside_patterns_take_the_middle_of_a_sliver() {
     let thin = 1.0 / 1024.0;
     let corners = [Vec2::ZERO, Vec2::splat(40.0), Vec2::new(40.0 + thin, 40.0), Vec2::new(thin, 0.0)];
-    let all =
-        taps(&InsideQuadReject(Jittered { num_samples: 4, ..Jittered::default() }), &Footprint::around(corners), KEY);
+    let all = taps(&InsideQuadReject(Jittered::default().with_num_samples(4)), &Footprint::around(corners), KEY);
     assert_eq!(all.len(), 1);
     assert!((all[0].at - Vec2::new(20.0 + 0.5 * thin, 20.0)).length() < 1e-5);
 }
@@ -374,13 +374,13 @@ fn r87_12_every_parameter_changes_the_taps() {
     let (region, base) = (boxed(9.3, 4.1, 5.25, 0.75), Jittered::default());
     let plain = taps(&base, &region, KEY);
     assert_eq!(plain.len(), 22);
-    assert_eq!(taps(&Jittered { hard_cap: true, ..base }, &region, KEY).len(), 16);
-    assert_eq!(taps(&Jittered { num_samples: 4, ..base }, &region, KEY).len(), 4);
-    assert_eq!(taps(&Jittered { min_samples: 3, ..base }, &region, KEY).len(), 33);
-    assert_ne!(taps(&Jittered { jitter: 0.5, ..base }, &region, KEY), plain);
-    assert_eq!(taps(&Uniform { num_samples: 40 }, &region, KEY).len(), 40);
-    assert_eq!(taps(&Gaussian { num_samples: 41 }, &region, KEY).len(), 41);
-    assert_eq!(taps(&Disc { num_samples: 42, ..Disc::default() }, &region, KEY).len(), 42);
+    assert_eq!(taps(&base.with_hard_cap(true), &region, KEY).len(), 16);
+    assert_eq!(taps(&base.with_num_samples(4), &region, KEY).len(), 4);
+    assert_eq!(taps(&base.with_min_samples(3), &region, KEY).len(), 33);
+    assert_ne!(taps(&base.with_jitter(0.5), &region, KEY), plain);
+    assert_eq!(taps(&Uniform::default().with_num_samples(40), &region, KEY).len(), 40);
+    assert_eq!(taps(&Gaussian::default().with_num_samples(41), &region, KEY).len(), 41);
+    assert_eq!(taps(&Disc::default().with_num_samples(42), &region, KEY).len(), 42);
 }
 
 #[test]
@@ -396,7 +396,7 @@ fn r87_11_d_the_middle_is_the_centroid_of_the_area() {
     // So slender that no sample of the box falls inside, and three times as wide at one end.
     let thin = 1.0 / 1024.0;
     let corners = [Vec2::ZERO, Vec2::splat(36.0), Vec2::new(36.0 + thin, 36.0), Vec2::new(3.0 * thin, 0.0)];
-    let pattern = InsideQuadReject(Jittered { num_samples: 4, ..Jittered::default() });
+    let pattern = InsideQuadReject(Jittered::default().with_num_samples(4));
     let all = taps(&pattern, &Footprint::around(corners), KEY);
     assert_eq!(all.len(), 1);
     // A trapezium's centroid stands at (a + 2b)/(3(a + b)) of its height from side a: 5/12 of 36 from the wide end.

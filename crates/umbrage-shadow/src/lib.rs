@@ -26,37 +26,24 @@
 //! Conventions: 1 is dark (`shadow`), equality is lit, a sample outside the map answers by the view's
 //! [`Rules`](umbrage_plane::Rules). This crate draws nothing and opens no file.
 
-mod around;
 pub mod as_printed;
-mod conditional;
-mod cone;
-mod depth;
-mod filter;
-mod integer_first;
-mod lat_long;
-mod ordinary;
-mod pcf;
+mod depths;
+mod filters;
+mod lights;
+mod mean;
 pub mod presets;
 mod probe;
 mod query;
-mod shadow;
-mod soft;
-mod tags;
-pub mod williams;
+mod surfaces;
 
-pub use around::{Around, AroundError, Evaluate};
-pub use conditional::{Conditional, VirtualWhen};
-pub use cone::{Cone, Radius};
-pub use depth::{Biased, OnPlane, ReceiverDepth, Spread};
+pub use depths::{AnyDepth, Biased, Cone, OnPlane, Radius, ReceiverDepth, Spread};
 pub use fearless_simd::Simd;
-pub use filter::{Filter, filter};
-pub use integer_first::{IntegerFirst, behind, whole};
-pub use lat_long::{LatLong, LatLongError};
-pub use ordinary::Ordinary;
-pub use pcf::Pcf;
+pub use filters::{
+    Conditional, Extent, Falloff, IntegerFirst, Opacity, Ordinary, Pcf, Soft, Softness, VirtualWhen, Williams, factor,
+    integer_first, williams,
+};
+pub use lights::{Around, AroundError, Evaluate, LatLong, LatLongError, Shadow, ShadowMap, Tags, Unshadowed};
+pub use mean::weighted_mean;
 pub use probe::{Counters, Probe};
-pub use query::{Met, Query, Seen, Surfaces};
-pub use shadow::{Shadow, ShadowMap, Unshadowed};
-pub use soft::{Extent, Falloff, Opacity, Soft, Softness, factor};
-pub use tags::Tags;
-pub use williams::Williams;
+pub use query::{Filter, Query};
+pub use surfaces::{Met, Seen, Surfaces};

@@ -1,11 +1,41 @@
-use crate::depth::lane;
-use crate::{Filter, Probe, ReceiverDepth};
+use crate::surfaces::{Channel, Met, Seen, Surfaces};
+use crate::{Probe, ReceiverDepth};
 use fearless_simd::{Simd, f32x16, prelude::*};
-use glam::{IVec2, Vec2, Vec3};
-use std::borrow::Cow;
-use umbrage_depth::{DepthMap, Step, Translucent};
+use glam::{IVec2, Vec2};
+use std::sync::Arc;
+use umbrage_depth::{DepthMap, Translucent};
 use umbrage_plane::{Footprint, Receiver, TexelRect, Verdict, View, floor_texel};
-use umbrage_sample::{Key, Pattern, Tap, Taps};
+use umbrage_sample::{Key, Pattern, Taps};
+
+/// Combines what a map says around a receiver into a fraction in shadow.
+///
+/// A filter of one's own is a struct with its parameters and this one function, which asks the [`Query`]: for a region, for the
+/// fraction in shadow of a pattern's taps, or for each tap. Here are percentage-closer soft shadows (Fernando 2005):
+///
+/// ```
+#[doc = include_str!("../examples/filter/pcss.rs")]
+/// ```
+///
+/// Mark the function `#[inline(always)]`, so that it is compiled for the machine's own instructions.
+pub trait Filter: Send + Sync {
+    /// The fraction of the receiver's region that is in shadow, in 0..=1.
+    fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32;
+}
+
+/// [`Filter`] of something that stands for another filter.
+macro_rules! forward {
+    ($type:ty) => {
+        impl<F: Filter> Filter for $type {
+            #[inline(always)]
+            fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32 {
+                (**self).shadow(query)
+            }
+        }
+    };
+}
+
+forward!(&F);
+forward!(Arc<F>);
 
 /// One receiver asked of one map: everything that a [`Filter`] works with.
 ///
@@ -21,107 +51,6 @@ pub struct Query<'a, S: Simd, M, P> {
     probe: &'a mut P,
     /// Texels read; `None` before the first look-up.
     looked: Option<u32>,
-}
-
-/// Which light a query is about, where a deep map colours it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Channel {
-    /// The mean of red, green and blue.
-    All,
-    /// Red, green or blue: 0, 1 or 2.
-    One(usize),
-}
-
-impl Channel {
-    /// What passes of this light.
-    #[inline(always)]
-    fn of(self, passes: Vec3, grey: bool) -> f32 {
-        match self {
-            Self::One(channel) => passes[channel],
-            Self::All if grey => passes.x,
-            Self::All => passes.element_sum() * (1.0 / 3.0),
-        }
-    }
-}
-
-/// What [`Query::each`] reports of one tap.
-pub struct Seen<'a> {
-    /// Where it is, and its weight.
-    pub tap: Tap,
-    /// The receiver's depth there, bias included.
-    pub compared: f32,
-    /// What is there.
-    pub met: Met<'a>,
-}
-
-impl Seen<'_> {
-    /// The fraction of the light that does not arrive at this tap, in 0..=1: what percentage-closer filtering averages.
-    #[inline(always)]
-    pub fn dark(&self) -> f32 {
-        match &self.met {
-            Met::Settled(dark) => *dark,
-            Met::Surfaces(surfaces) => surfaces.dark(self.compared),
-        }
-    }
-}
-
-/// What a tap meets.
-pub enum Met<'a> {
-    /// Its place settles the answer by the view's [`Rules`](umbrage_plane::Rules): 0 is lit, 1 is in shadow. Whatever the map
-    /// holds there does not count.
-    Settled(f32),
-    /// What the map stores there.
-    Surfaces(Surfaces<'a>),
-}
-
-/// The surfaces over one texel, as one colour of light meets them. A plain map has one opaque surface, or none.
-#[derive(Clone, Debug)]
-pub struct Surfaces<'a>(Stack<'a>);
-
-#[derive(Clone, Debug)]
-enum Stack<'a> {
-    Opaque(f32),
-    Deep { steps: Cow<'a, [Step]>, channel: Channel, grey: bool },
-}
-
-impl Surfaces<'_> {
-    /// The fraction of the light that surfaces nearer than `depth` stop, in 0..=1. A surface at `depth` itself is not nearer.
-    #[inline(always)]
-    pub fn dark(&self, depth: f32) -> f32 {
-        match &self.0 {
-            Stack::Opaque(stored) => f32::from(u8::from(depth > *stored)),
-            Stack::Deep { steps, channel, grey } => {
-                let nearer = steps.partition_point(|step| step.depth < depth);
-                if nearer == 0 { 0.0 } else { 1.0 - channel.of(steps[nearer - 1].passes, *grey) }
-            }
-        }
-    }
-
-    /// The depth of the nearest surface, opaque or not; +∞ without one.
-    #[inline(always)]
-    pub fn nearest(&self) -> f32 {
-        match &self.0 {
-            Stack::Opaque(stored) => *stored,
-            Stack::Deep { steps, .. } => steps.first().map_or(f32::INFINITY, |step| step.depth),
-        }
-    }
-
-    /// Each surface, nearest first: its depth and the fraction of the light that it stops of what left the lamp. The fractions of a
-    /// texel add up to 1 where nothing passes.
-    pub fn iter(&self) -> impl Iterator<Item = (f32, f32)> + '_ {
-        let (plain, deep) = match &self.0 {
-            Stack::Opaque(stored) => ((*stored < f32::INFINITY).then_some((*stored, 1.0)), None),
-            Stack::Deep { steps, channel, grey } => {
-                let mut left = 1.0;
-                let stopped = steps.iter().map(move |step| {
-                    let before = std::mem::replace(&mut left, channel.of(step.passes, *grey));
-                    (step.depth, before - left)
-                });
-                (None, Some(stopped))
-            }
-        };
-        plain.into_iter().chain(deep.into_iter().flatten())
-    }
 }
 
 impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
@@ -389,10 +318,10 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
 
     #[inline(always)]
     fn surfaces(&self, texel: IVec2, stored: f32) -> Surfaces<'a> {
-        Surfaces(match self.map.translucent() {
-            None => Stack::Opaque(stored),
-            Some(deep) => Stack::Deep { steps: deep.steps(texel), channel: self.channel, grey: deep.is_grey() },
-        })
+        match self.map.translucent() {
+            None => Surfaces::opaque(stored),
+            Some(deep) => Surfaces::deep(deep, texel, self.channel),
+        }
     }
 
     #[inline(always)]
@@ -419,7 +348,7 @@ impl Passing<'_> {
         let (column, row) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
         for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
             let weight = if self.weighted { taps.weight[i] } else { 1.0 };
-            let ruled = if self.inside { None } else { by_rule(self.view, lane(taps, i)) };
+            let ruled = if self.inside { None } else { by_rule(self.view, taps.tap(i).at) };
             let passes = || self.deep.transmittance(IVec2::new(column[i], row[i]), compared[i]);
             *count += weight;
             *hits += weight * ruled.unwrap_or_else(|| 1.0 - self.channel.of(passes(), grey));
@@ -431,7 +360,7 @@ impl Passing<'_> {
 #[inline(always)]
 fn by_rules<S: Simd>(view: &View, taps: &Taps<S>, mut nearer: u32) -> u32 {
     for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
-        match by_rule(view, lane(taps, i)) {
+        match by_rule(view, taps.tap(i).at) {
             Some(dark) if dark > 0.0 => nearer |= 1 << i,
             Some(_) => nearer &= !(1 << i),
             None => {}

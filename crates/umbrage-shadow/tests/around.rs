@@ -35,7 +35,11 @@ fn facing(direction: DVec3, size: f64, region: u32) -> SurfacePoint {
 }
 
 fn exact<P: Pattern>(pattern: P) -> Pcf<P, Biased> {
-    Pcf { pattern, depth: Biased::constant(Bias::World(0.01)), res_factor: 1.0, min_size: 0.0, cull: true }
+    Pcf::default()
+        .with_pattern(pattern)
+        .with_depth(Biased::constant(Bias::World(0.01)))
+        .with_res_factor(1.0)
+        .with_min_size(0.0)
 }
 
 /// A cap of 30° about a corner of the cube hides all behind it: its edge crosses three faces and three seams.
@@ -88,7 +92,11 @@ fn t_16_virtual_samples_cross_cube_seams() {
     };
     let maps = cube(256, Kind::Radial, wall);
     let depth = umbrage_shadow::OnPlane::biased(Bias::World(0.12));
-    let filter = Pcf { pattern: Uniform { num_samples: 64 }, depth, res_factor: 1.0, min_size: 0.0, cull: true };
+    let filter = Pcf::default()
+        .with_pattern(Uniform::default().with_num_samples(64))
+        .with_depth(depth)
+        .with_res_factor(1.0)
+        .with_min_size(0.0);
     let around = Around::new(filter, maps).unwrap();
     let normal = DVec3::new(1.0, 0.0, 1.0).normalize();
     for step in 0..400 {
@@ -135,8 +143,9 @@ fn r87_17_latitude_and_longitude_agree_with_the_cube_across_the_date_line_and_at
     for middle in [about, DVec3::Y, DVec3::NEG_Y, DVec3::new(0.3, 0.5, -0.8).normalize()] {
         let spot = move |d: DVec3| if d.dot(middle) > 20f64.to_radians().cos() { 5.0 } else { 20.0 };
         let maps = cube(512, Kind::Radial, spot);
-        let lat_long = LatLong::from_maps(exact(Uniform { num_samples: 256 }), &maps, UVec2::new(1024, 512)).unwrap();
-        let cube = Around::new(exact(Uniform { num_samples: 256 }), maps).unwrap();
+        let lat_long =
+            LatLong::from_maps(exact(Uniform::default().with_num_samples(256)), &maps, UVec2::new(1024, 512)).unwrap();
+        let cube = Around::new(exact(Uniform::default().with_num_samples(256)), maps).unwrap();
         let mut worst = 0f32;
         for step in 0..600 {
             let turn = f64::from(KEY.unit(step, 0)) * std::f64::consts::TAU;

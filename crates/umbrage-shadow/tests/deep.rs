@@ -6,8 +6,8 @@ use umbrage_depth::{DepthMap, Step, Translucent};
 use umbrage_plane::{Bias, DepthRange, Footprint, Kind, Receiver, Rules, SurfacePoint, TexelRect, View, cube_views};
 use umbrage_sample::{Centre, EveryTexel, Key};
 use umbrage_shadow::{
-    Around, Biased, Conditional, Counters, Extent, Filter, IntegerFirst, OnPlane, Pcf, Shadow, ShadowMap, Soft,
-    Softness, VirtualWhen, presets,
+    Around, Biased, Counters, Extent, Filter, IntegerFirst, OnPlane, Pcf, Shadow, ShadowMap, Softness, VirtualWhen,
+    presets,
 };
 
 const KEY: Key = Key::new(56, 0, 0);
@@ -95,31 +95,34 @@ fn v56_b06_11_filters_average_what_passes_and_never_cull() {
     let map = v56(0);
     let plane = OnPlane::default();
     let narrow = Softness::Between { min: Extent::Texels(0.5), max: Extent::Texels(2.0) };
-    let soft = Soft { softness: narrow, ..presets::fernando(Bias::ZERO) };
+    let soft = presets::fernando(Bias::ZERO).with_softness(narrow);
     for (depth, dark) in [(1.0, 0.0), (2.0, 0.0), (2.5, 0.4), (5.0, 0.4), (5f32.next_up(), 1.0), (50.0, 1.0)] {
         let receiver = at(&map.view, depth, Vec2::splat(16.3), 1.5);
         let close = |name: &str, (found, counters): (f32, Counters)| {
             assert!((found - dark).abs() < 1e-6, "{name} at {depth}: {found}, want {dark}");
             assert_eq!(counters.culled_lit + counters.culled_dark, 0, "{name}");
         };
-        close("pcf", ask(&Pcf { depth: exact(), ..Pcf::default() }, &map, &receiver));
+        close("pcf", ask(&Pcf::default().with_depth(exact()), &map, &receiver));
         close(
             "every texel",
             ask(
-                &Pcf { pattern: EveryTexel, depth: exact(), res_factor: 1.0, min_size: 0.0, cull: true },
+                &Pcf::default().with_pattern(EveryTexel).with_depth(exact()).with_res_factor(1.0).with_min_size(0.0),
                 &map,
                 &receiver,
             ),
         );
         close("centre", ask(&presets::ordinary(Bias::ZERO), &map, &receiver));
         for when in [VirtualWhen::Mixed, VirtualWhen::Always, VirtualWhen::Never] {
-            close("conditional", ask(&Conditional { when, plane, ..presets::wang_molnar94() }, &map, &receiver));
+            close("conditional", ask(&presets::wang_molnar94().with_when(when).with_plane(plane), &map, &receiver));
         }
         close("soft", ask(&soft, &map, &receiver));
     }
     // A bias moves what passes, as it moves comparisons.
-    let biased =
-        Pcf { pattern: Centre, depth: Biased::constant(Bias::World(0.5)), res_factor: 0.0, min_size: 0.0, cull: true };
+    let biased = Pcf::default()
+        .with_pattern(Centre)
+        .with_depth(Biased::constant(Bias::World(0.5)))
+        .with_res_factor(0.0)
+        .with_min_size(0.0);
     for (depth, dark) in [(2.5, 0.0), (2.6, 0.4), (5.5, 0.4), (5.6, 1.0)] {
         let found = ask(&biased, &map, &at(&map.view, depth, Vec2::splat(16.3), 0.0)).0;
         assert!((found - dark).abs() < 1e-6, "{depth}: {found}");
@@ -130,7 +133,7 @@ fn v56_b06_11_filters_average_what_passes_and_never_cull() {
 fn t_19_occluders_are_found_by_the_nearest_surface_not_by_the_first_opaque_one() {
     // Burley's factor of a receiver at 10 is .8 for an occluder at 2 and .5 for one at 5: radii of 8 and of 5 texels of 10.
     let softness = Softness::Between { min: Extent::Texels(0.0), max: Extent::Texels(8.0) };
-    let mut soft = Soft { softness, ..presets::fernando(Bias::ZERO) };
+    let mut soft = presets::fernando(Bias::ZERO).with_softness(softness);
     soft.search.num_samples = 1024;
     soft.blur.num_samples = 4096;
     let reaches = |columns: f32| ask(&soft, &v56(16), &at(&lamp(), 10.0, Vec2::new(16.0 - columns, 16.3), 0.0)).0;
@@ -145,7 +148,7 @@ fn t_19_occluders_are_found_by_the_nearest_surface_not_by_the_first_opaque_one()
 fn c_10_places_outside_a_deep_map_answer_by_its_rules() {
     let share = |rules| {
         let map = Layers { view: lamp().with_rules(rules), ..v56(0) };
-        let pcf = Pcf { pattern: EveryTexel, depth: exact(), res_factor: 1.0, min_size: 0.0, cull: true };
+        let pcf = Pcf::default().with_pattern(EveryTexel).with_depth(exact()).with_res_factor(1.0).with_min_size(0.0);
         ask(&pcf, &map, &at(&map.view, 4.0, Vec2::new(32.0, 16.0), 2.0)).0
     };
     // Half outside, half behind the veil.
@@ -159,7 +162,7 @@ fn b06_11_colours_reach_the_shading() {
     let stained = Layers { surfaces: vec![(2.0, [0.1, 0.6, 1.0])], coloured: true, ..v56(0) };
     let points = [-1.0f32, -10.0].map(|y| SurfacePoint::at(Vec3::new(0.1, y, 0.1), Vec3::Y));
     let pass = |map: Layers, wanted: [[f32; 3]; 2]| {
-        let shadow = ShadowMap { filter: Pcf { depth: exact(), ..Pcf::default() }, map };
+        let shadow = ShadowMap { filter: Pcf::default().with_depth(exact()), map };
         let (mut fractions, mut passes) = ([f32::NAN; 2], [Vec3::NAN; 2]);
         shadow.fractions(&points, KEY, &mut fractions);
         shadow.transmittances(&points, KEY, &fractions, &mut passes);
@@ -181,7 +184,7 @@ fn cube(surfaces: &[(f32, [f32; 3])], coloured: bool) -> Vec<Layers> {
 
 #[test]
 fn b06_11_t_16_lights_in_all_directions_forward_what_passes_across_seams() {
-    let pcf = Pcf { pattern: EveryTexel, depth: exact(), res_factor: 0.0, min_size: 3.0, cull: true };
+    let pcf = Pcf::default().with_pattern(EveryTexel).with_depth(exact()).with_res_factor(0.0).with_min_size(3.0);
     let around = Around::new(pcf, cube(&[(2.0, [0.25; 3]), (5.0, [1.0; 3])], false)).unwrap();
     // Directly at a seam, and in the middle of a face: between the veil and the wall all texels pass three quarters.
     for direction in [Vec3::new(1.0, 0.99, 0.0), Vec3::new(1.0, 0.1, 0.1), Vec3::new(0.99, 1.0, 0.98)] {

@@ -42,10 +42,13 @@ fn v01_figure_2_ordinary_against_percentage_closer_r87_9_r87_10() {
     });
     assert!((FIG2.iter().map(|&z| f64::from(z)).sum::<f64>() / 9.0 - 22.944_444).abs() < 1e-6);
     let region = receiver(&lamp(12), 49.8, Vec2::splat(5.5), Vec2::splat(1.5));
-    let exhaustive =
-        Pcf { pattern: EveryTexel, depth: Biased::constant(Bias::ZERO), res_factor: 1.0, min_size: 0.0, cull: true };
+    let exhaustive = Pcf::default()
+        .with_pattern(EveryTexel)
+        .with_depth(Biased::constant(Bias::ZERO))
+        .with_res_factor(1.0)
+        .with_min_size(0.0);
     assert!((fraction(exhaustive, map.clone(), &region, KEY) - 5.0 / 9.0).abs() < 1e-6);
-    let ordinary = Ordinary { pattern: EveryTexel, bias: Bias::ZERO, res_factor: 1.0 };
+    let ordinary = Ordinary::default().with_pattern(EveryTexel).with_bias(Bias::ZERO).with_res_factor(1.0);
     assert_eq!(fraction(ordinary, map, &region, KEY), 1.0);
 }
 
@@ -86,7 +89,7 @@ const COUNTS: [Row; 28] = [
 #[test]
 fn v02_to_v07_counts_corrected_and_as_printed_e_r5_e_r6_e_r7_e_r8() {
     for (a, b, n, m, corrected, [ns, nt, guarded]) in COUNTS {
-        let ours = Jittered { num_samples: n, min_samples: m, ..Jittered::default() }.counts(Vec2::new(a, b));
+        let ours = Jittered::default().with_num_samples(n).with_min_samples(m).counts(Vec2::new(a, b));
         assert_eq!(ours.to_array(), corrected, "({a}, {b}, {n}, {m})");
         assert_eq!(counts(a, b, n, m), Counts { ns, nt, guarded }, "({a}, {b}, {n}, {m})");
     }
@@ -132,7 +135,7 @@ fn v09_t_14_jitter_range_moves_the_shadow_e_r9() {
     let mean = |rand| mean_printed(&Listing { rand, ..listing }, &step, at, 10.0, [2.0 / 256.0; 2], 40_000);
     assert!((mean(RandRange::Signed) - 0.5625).abs() < 1.5e-3);
     assert!((mean(RandRange::Unit) - 0.625).abs() < 1.5e-3);
-    let corrected = Pcf { depth: Biased::constant(Bias::ZERO), res_factor: 1.0, ..Pcf::default() };
+    let corrected = Pcf::default().with_depth(Biased::constant(Bias::ZERO)).with_res_factor(1.0);
     let region = receiver(&lamp(256), 10.0, Vec2::new(100.25, 128.0), Vec2::splat(2.0));
     let shadow = ShadowMap { filter: corrected, map: step };
     // The standard error is 2.7e-4: four rows jittered in the one column that the edge crosses.
@@ -198,9 +201,9 @@ fn v15_v23_bias_range_r87_14_e_r9() {
 #[test]
 fn a_ramp_spreads_the_bias_without_noise() {
     let flat = map(16, |_, _| 9.65);
-    let depth = Biased { spread: Spread::Ramp, ..Biased::default() };
+    let depth = Biased::default().with_spread(Spread::Ramp);
     let region = receiver(&lamp(16), 10.0, Vec2::splat(8.0), Vec2::splat(1.0));
-    let shadow = ShadowMap { filter: Pcf { depth, ..Pcf::default() }, map: flat };
+    let shadow = ShadowMap { filter: Pcf::default().with_depth(depth), map: flat };
     for round in 0..50 {
         assert_eq!(shadow.fraction_of(&region, KEY.region(round)), 0.5);
     }
@@ -210,7 +213,7 @@ fn a_ramp_spreads_the_bias_without_noise() {
 fn v24_r87_13_levels_are_multiples_of_the_region_s_own_count_t_20() {
     let edge = map(64, |x, _| if x < 32 { 1.0 } else { f32::INFINITY });
     for half in [Vec2::splat(2.0), Vec2::new(5.25, 0.75), Vec2::new(1.5, 9.0)] {
-        let filter = Pcf { res_factor: 1.0, ..Pcf::default() };
+        let filter = Pcf::default().with_res_factor(1.0);
         let count = filter.pattern.counts(half).element_product() as f32;
         for step in 0..40 {
             let region = receiver(&lamp(64), 10.0, Vec2::new(30.0 + step as f32 * 0.1, 32.0), half);
@@ -223,8 +226,9 @@ fn v24_r87_13_levels_are_multiples_of_the_region_s_own_count_t_20() {
 #[test]
 fn v21_d_13_a_straight_edge_becomes_a_ramp_of_the_region_s_width() {
     let edge = map(64, |x, _| if x < 32 { 1.0 } else { f32::INFINITY });
-    let pattern = Uniform { num_samples: 65_536 };
-    let filter = Pcf { pattern, depth: Biased::default(), res_factor: 1.0, min_size: 0.0, cull: true };
+    let pattern = Uniform::default().with_num_samples(65_536);
+    let filter =
+        Pcf::default().with_pattern(pattern).with_depth(Biased::default()).with_res_factor(1.0).with_min_size(0.0);
     let share = |x: f32| {
         let region = receiver(&lamp(64), 10.0, Vec2::new(x, 32.0), Vec2::new(1.0, 1.0));
         fraction(filter, edge.clone(), &region, KEY)
@@ -239,7 +243,7 @@ fn v21_d_13_a_straight_edge_becomes_a_ramp_of_the_region_s_width() {
 fn v32_samples_outside_a_cone_are_dark_for_a_spot_w92_6_e_r13() {
     // A lit map; the region's left quarter lies outside the map, or outside the cone inside it.
     let lit = |view: View| Raw::new(view, vec![f32::INFINITY; 64 * 64]).unwrap();
-    let filter = Pcf { res_factor: 1.0, ..Pcf::default() };
+    let filter = Pcf::default().with_res_factor(1.0);
     let outside = receiver(&lamp(64), 10.0, Vec2::new(2.0, 32.0), Vec2::splat(4.0));
     assert_eq!(fraction(filter, lit(lamp(64).with_rules(Rules::OPEN)), &outside, KEY), 0.0);
     assert_eq!(fraction(filter, lit(lamp(64).with_rules(Rules::SPOT)), &outside, KEY), 0.25);
@@ -267,7 +271,7 @@ fn v33_t_4_ranges_settle_a_region_only_when_they_may_r87_22() {
         let mut probe = Counters::default();
         let ask = |filter: Pcf, probe: &mut Counters| ShadowMap { filter, map }.fraction_of_probed(&region, KEY, probe);
         let answer = ask(presets::reeves87(), &mut probe);
-        assert_eq!(answer, ask(Pcf { cull: false, ..presets::reeves87() }, &mut Counters::default()), "z = {z}");
+        assert_eq!(answer, ask(presets::reeves87().with_cull(false), &mut Counters::default()), "z = {z}");
         (probe.lookups == 0).then_some(answer)
     };
     let expected = [
@@ -302,17 +306,18 @@ fn r87_22_culling_changes_no_bit() {
             let key = KEY.region(step);
             let centre = Vec2::new(key.unit(0, 0), key.unit(0, 1)) * 140.0 - 6.0;
             let region = receiver(&lamp(128), 8.8 + 2.5 * key.unit(0, 2), centre, Vec2::splat(half));
-            let constant = Pcf { res_factor: 1.0, ..Pcf::default() };
+            let constant = Pcf::default().with_res_factor(1.0);
             let depth = OnPlane::biased(Bias::World(0.1));
-            let plane = Pcf { pattern: constant.pattern, depth, res_factor: 1.0, min_size: 0.0, cull: true };
+            let plane =
+                Pcf::default().with_pattern(constant.pattern).with_depth(depth).with_res_factor(1.0).with_min_size(0.0);
             let pairs = [
                 (
                     asked(&constant, &tiled, &region, key, &mut probe),
-                    fraction(Pcf { cull: false, ..constant }, tiled.clone(), &region, key),
+                    fraction(constant.with_cull(false), tiled.clone(), &region, key),
                 ),
                 (
                     asked(&plane, &tiled, &region, key, &mut probe),
-                    fraction(Pcf { cull: false, ..plane }, tiled.clone(), &region, key),
+                    fraction(plane.with_cull(false), tiled.clone(), &region, key),
                 ),
             ];
             for (cut, uncut) in pairs {
@@ -345,7 +350,12 @@ fn r87_2_light_space_is_a_signed_axial_distance() {
 }
 
 fn mean(pattern: impl umbrage_sample::Pattern, map: &Raw, region: &Receiver) -> f32 {
-    let filter = Pcf { pattern, depth: Biased::default(), res_factor: 1.0, min_size: 0.0, cull: false };
+    let filter = Pcf::default()
+        .with_pattern(pattern)
+        .with_depth(Biased::default())
+        .with_res_factor(1.0)
+        .with_min_size(0.0)
+        .with_cull(false);
     let shadow = ShadowMap { filter, map: map.clone() };
     (0..4000).map(|i| shadow.fraction_of(region, KEY.region(i))).sum::<f32>() / 4000.0
 }
@@ -358,8 +368,8 @@ fn r87_11_every_pattern_agrees_with_the_exhaustive_share_in_the_mean() {
     let means = [
         mean(EveryTexel, &checks, &region),
         mean(jittered, &checks, &region),
-        mean(Uniform { num_samples: 16 }, &checks, &region),
-        mean(Gaussian { num_samples: 16 }, &checks, &region),
+        mean(Uniform::default().with_num_samples(16), &checks, &region),
+        mean(Gaussian::default().with_num_samples(16), &checks, &region),
         mean(InsideQuadReject(jittered), &checks, &region),
         mean(InsideQuadWarp(jittered), &checks, &region),
     ];
@@ -389,8 +399,8 @@ fn e_r3_full_sizes_halve_the_window_and_e_r4_is_a_no_op_when_read_as_printed() {
 fn r87_26_anything_can_be_filtered_after_its_transform() {
     // V59's order of operations in small: the mean of a square is not the square of the mean.
     let region = Footprint::boxed(Vec2::splat(8.0), Vec2::splat(4.0));
-    let square: f32 = umbrage_shadow::filter(&EveryTexel, &region, KEY, |tap| tap.at.x * tap.at.x);
-    let mean: f32 = umbrage_shadow::filter(&EveryTexel, &region, KEY, |tap| tap.at.x);
+    let square: f32 = umbrage_shadow::weighted_mean(&EveryTexel, &region, KEY, |tap| tap.at.x * tap.at.x);
+    let mean: f32 = umbrage_shadow::weighted_mean(&EveryTexel, &region, KEY, |tap| tap.at.x);
     assert!((square - mean * mean - 5.25).abs() < 1e-3, "{square} {mean}");
 }
 
@@ -399,7 +409,7 @@ fn scaling_the_world_and_the_bias_alike_changes_nothing() {
     for scale in [0.25f32, 4.0, 1024.0] {
         let make = |scale: f32| {
             let map = map(64, |x, y| (8.0 + ((x * 7 + y * 3) % 11) as f32 * 0.1) * scale);
-            let filter = Pcf { depth: Biased::world(0.25 * scale, 0.5 * scale), ..Pcf::default() };
+            let filter = Pcf::default().with_depth(Biased::world(0.25 * scale, 0.5 * scale));
             let region = receiver(&lamp(64), 9.0 * scale, Vec2::splat(30.3), Vec2::splat(1.7));
             fraction(filter, map, &region, KEY)
         };

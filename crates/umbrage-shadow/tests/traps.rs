@@ -6,7 +6,7 @@ use umbrage_depth::{Bbox, DepthMap, Raw};
 use umbrage_plane::{Bias, Footprint, Kind, Receiver, Rules, SurfacePoint, TexelRect, View};
 use umbrage_sample::{EveryTexel, Key, Uniform};
 use umbrage_shadow::williams::{Guard, bilinear};
-use umbrage_shadow::{Biased, Filter, Pcf, Shadow, ShadowMap, filter, presets};
+use umbrage_shadow::{Biased, Filter, Pcf, Shadow, ShadowMap, presets, weighted_mean};
 
 const KEY: Key = Key::new(19, 0, 0);
 
@@ -41,7 +41,7 @@ fn t_3_the_background_around_the_finite_box_is_lit_inside_a_spot_s_cone() {
     let raw = Raw::new(view, depths.collect()).unwrap();
     let boxed = Bbox::from(&raw);
     for cull in [true, false] {
-        let filter = Pcf { cull, ..presets::woo92() };
+        let filter = presets::woo92().with_cull(cull);
         for step in 0..400 {
             let at = Vec3::new(KEY.signed(step, 0) * 12.0, -10.0, KEY.signed(step, 1) * 12.0);
             let point = SurfacePoint { region: step, ..SurfacePoint::at(at, Vec3::Y) };
@@ -78,9 +78,19 @@ fn t_6_a_larger_region_needs_a_larger_bias() {
     let seen = view.receiver(&at).unwrap();
     let share = |half: f32, bias: f32| {
         let region = Receiver { footprint: Footprint::boxed(seen.footprint.centre, Vec2::splat(half)), ..seen };
-        let pattern = Uniform { num_samples: 4096 };
+        let pattern = Uniform::default().with_num_samples(4096);
         let depth = Biased::constant(Bias::Steps(bias));
-        ask(&Pcf { pattern, depth, res_factor: 1.0, min_size: 0.0, cull: false }, &map, &region, KEY)
+        ask(
+            &Pcf::default()
+                .with_pattern(pattern)
+                .with_depth(depth)
+                .with_res_factor(1.0)
+                .with_min_size(0.0)
+                .with_cull(false),
+            &map,
+            &region,
+            KEY,
+        )
     };
     assert_eq!(share(1.0, 1.6), 0.0);
     assert!(share(4.0, 1.6) > 0.1, "{}", share(4.0, 1.6));
@@ -123,12 +133,12 @@ fn t_10_equal_depths_are_lit_everywhere() {
     let map = Raw::new(view, vec![10.0; 256]).unwrap();
     let at = view.receiver(&SurfacePoint::at(Vec3::new(0.0, -10.0, 0.0), Vec3::Y)).unwrap();
     let region = |depth: f32| Receiver { footprint: Footprint::boxed(Vec2::splat(8.0), Vec2::splat(2.0)), depth, ..at };
-    let exact = Pcf { depth: Biased::constant(Bias::ZERO), ..Pcf::default() };
+    let exact = Pcf::default().with_depth(Biased::constant(Bias::ZERO));
     for cull in [true, false] {
-        assert_eq!(ask(&Pcf { cull, ..exact }, &map, &region(10.0), KEY), 0.0);
-        assert_eq!(ask(&Pcf { cull, ..exact }, &map, &region(10f32.next_up()), KEY), 1.0);
+        assert_eq!(ask(&exact.with_cull(cull), &map, &region(10.0), KEY), 0.0);
+        assert_eq!(ask(&exact.with_cull(cull), &map, &region(10f32.next_up()), KEY), 1.0);
     }
-    let williams = umbrage_shadow::Williams { bias: Bias::ZERO, ..presets::williams78() };
+    let williams = presets::williams78().with_bias(Bias::ZERO);
     assert_eq!(ask(&williams, &map, &region(10.0), KEY), 0.0);
     assert_eq!(ask(&williams, &map, &region(10f32.next_up()), KEY), 1.0);
 }
@@ -163,8 +173,8 @@ fn v59_r87_26_highlights_transformed_before_and_after_filtering() {
     let region = Footprint::boxed(Vec2::new(1.0, 0.5), Vec2::new(1.0, 0.5));
     let normal = |at: Vec2| normals[usize::from(at.x >= 1.0)];
     let highlight = |normal: Vec3| normal.z.powi(10);
-    let first: f32 = filter(&EveryTexel, &region, KEY, |tap| highlight(normal(tap.at)));
-    let mean: Vec3 = filter(&EveryTexel, &region, KEY, |tap| normal(tap.at));
+    let first: f32 = weighted_mean(&EveryTexel, &region, KEY, |tap| highlight(normal(tap.at)));
+    let mean: Vec3 = weighted_mean(&EveryTexel, &region, KEY, |tap| normal(tap.at));
     assert!((first - 0.500_488_3).abs() < 1e-6);
     assert!((highlight(mean) - 0.056_313_5).abs() < 1e-6);
     assert!((highlight(mean.normalize()) - 0.237_304_7).abs() < 1e-6);

@@ -6,7 +6,8 @@ use umbrage_depth::{DepthMap, Raw};
 use umbrage_plane::{Bias, Footprint, Receiver, Rules, SurfacePoint, TexelRect, View, Where};
 use umbrage_sample::{EveryTexel, InsideQuadWarp, Jittered, Key, Pattern, Tent};
 use umbrage_shadow::as_printed::{Listing, RandRange, TextureRect, sample_shadow};
-use umbrage_shadow::{Biased, Counters, Filter, IntegerFirst, Pcf, Probe, Shadow, ShadowMap, behind, presets, whole};
+use umbrage_shadow::integer_first::{behind, whole};
+use umbrage_shadow::{Biased, Counters, Filter, IntegerFirst, Pcf, Probe, Shadow, ShadowMap, presets};
 
 const KEY: Key = Key::new(92, 0, 0);
 
@@ -33,7 +34,11 @@ fn ask<F: Filter>(filter: &F, map: &impl DepthMap, receiver: &Receiver, key: Key
 }
 
 fn exhaustive() -> Pcf<EveryTexel, Biased> {
-    Pcf { pattern: EveryTexel, depth: Biased::constant(Bias::ZERO), res_factor: 1.0, min_size: 0.0, cull: true }
+    Pcf::default()
+        .with_pattern(EveryTexel)
+        .with_depth(Biased::constant(Bias::ZERO))
+        .with_res_factor(1.0)
+        .with_min_size(0.0)
 }
 
 #[test]
@@ -88,7 +93,7 @@ fn w92_3_w92_5_the_preset_has_no_bias_and_draws_none() {
     let answer = |depth| ask(&presets::woo92(), &stored, &Receiver { depth, ..region }, KEY, &mut ());
     assert_eq!((answer(10.0), answer(10f32.next_up())), (0.0, 1.0));
     // Any bias can be asked for all the same.
-    let biased = Pcf { depth: Biased::constant(Bias::World(0.5)), ..presets::woo92() };
+    let biased = presets::woo92().with_depth(Biased::constant(Bias::World(0.5)));
     let answer = |depth| ask(&biased, &stored, &Receiver { depth, ..region }, KEY, &mut ());
     assert_eq!((answer(10.5), answer(10.5f32.next_up())), (0.0, 1.0));
     // A midpoint between two surfaces lights the first and darkens the second: 9 and 11 around 10.
@@ -192,8 +197,12 @@ fn agrees<P: Pattern + Copy>(pattern: P, unit: f32) {
         |i: u32| [9.5, 10.0, 10f32.next_up(), 10f32.next_down(), 10.4, 40.0, 2.0, f32::INFINITY][i as usize % 8];
     let view = lamp(64).with_rules(Rules::SPOT).with_cone(Some(0.8)).unwrap();
     let stored = map(&view, |x, y| close(KEY.bits((x * 64 + y) as u32, 5)));
-    let integer = IntegerFirst { pattern, res_factor: 1.5, min_size: 0.5, unit };
-    let float = Pcf { pattern, depth: Biased::constant(Bias::ZERO), res_factor: 1.5, min_size: 0.5, cull: true };
+    let integer = IntegerFirst::default().with_pattern(pattern).with_res_factor(1.5).with_min_size(0.5).with_unit(unit);
+    let float = Pcf::default()
+        .with_pattern(pattern)
+        .with_depth(Biased::constant(Bias::ZERO))
+        .with_res_factor(1.5)
+        .with_min_size(0.5);
     let mut counters = Counters::default();
     for i in 0..3000 {
         let at = Vec2::new(KEY.unit(i, 0), KEY.unit(i, 1)) * 80.0 - 8.0;

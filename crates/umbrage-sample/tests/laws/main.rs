@@ -19,19 +19,19 @@ macro_rules! every_pattern {
         $law("every texel", &EveryTexel $(, $more)*);
         $law("tent", &Tent $(, $more)*);
         $law("uniform", &Uniform::default() $(, $more)*);
-        $law("uniform 37", &Uniform { num_samples: 37 } $(, $more)*);
+        $law("uniform 37", &Uniform::default().with_num_samples(37) $(, $more)*);
         $law("gaussian", &Gaussian::default() $(, $more)*);
-        $law("gaussian 3", &Gaussian { num_samples: 3 } $(, $more)*);
+        $law("gaussian 3", &Gaussian::default().with_num_samples(3) $(, $more)*);
         let jittered = Jittered::default();
         $law("jittered", &jittered $(, $more)*);
-        $law("jittered 100", &Jittered { num_samples: 100, min_samples: 3, ..jittered } $(, $more)*);
-        $law("jittered capped", &Jittered { min_samples: 2, hard_cap: true, ..jittered } $(, $more)*);
-        $law("regular", &Jittered { num_samples: 25, jitter: 0.0, ..jittered } $(, $more)*);
+        $law("jittered 100", &jittered.with_num_samples(100).with_min_samples(3) $(, $more)*);
+        $law("jittered capped", &jittered.with_min_samples(2).with_hard_cap(true) $(, $more)*);
+        $law("regular", &jittered.with_num_samples(25).with_jitter(0.0) $(, $more)*);
         $law("inside, rejecting", &InsideQuadReject(jittered) $(, $more)*);
-        $law("inside, rejecting 4", &InsideQuadReject(Jittered { num_samples: 4, ..jittered }) $(, $more)*);
+        $law("inside, rejecting 4", &InsideQuadReject(jittered.with_num_samples(4)) $(, $more)*);
         $law("inside, warping", &InsideQuadWarp(jittered) $(, $more)*);
         $law("disc", &Disc::default() $(, $more)*);
-        let plain = Disc { num_samples: 20, density: Density::Centred, rotate: false, half_offset: true };
+        let plain = Disc::default().with_num_samples(20).with_density(Density::Centred).with_rotate(false).with_half_offset(true);
         $law("disc, centred", &plain $(, $more)*);
     };
 }
@@ -170,7 +170,7 @@ proptest! {
 
     #[test]
     fn r87_13_counts_follow_the_definition(a in 0.0f32..60.0, b in 0.0f32..60.0, n in 1u32..300, m in 1u32..6, hard_cap: bool) {
-        let pattern = Jittered { num_samples: n, min_samples: m.min(n), hard_cap, ..Jittered::default() };
+        let pattern = Jittered::default().with_num_samples(n).with_min_samples(m.min(n)).with_hard_cap(hard_cap);
         let counts = pattern.counts(Vec2::new(a, b));
         prop_assert_eq!((counts.x, counts.y), twins::counts(&pattern, Vec2::new(a, b)));
         prop_assert!(counts.min_element() >= 1);
@@ -182,7 +182,7 @@ proptest! {
     /// Each cell of the grid holds exactly its own tap.
     #[test]
     fn r87_11_jittered_is_stratified(a in 0.1f32..40.0, b in 0.1f32..40.0, n in 1u32..200, seed: u32) {
-        let pattern = Jittered { num_samples: n, ..Jittered::default() };
+        let pattern = Jittered::default().with_num_samples(n);
         let region = Footprint::boxed(Vec2::new(70.3, 99.9), Vec2::new(a, b));
         let counts = pattern.counts(region.half);
         let cell = 2.0 * region.half / counts.as_vec2();

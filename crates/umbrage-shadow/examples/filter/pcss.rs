@@ -3,13 +3,14 @@ use umbrage_sample::Disc;
 use umbrage_shadow::{Cone, Filter, Met, Probe, Query, Simd};
 
 /// Percentage-closer soft shadows: the farther the occluders, the wider the blur.
-struct Pcss {
+#[derive(Clone, Copy, Debug)]
+pub struct Pcss {
     /// Where occluders are searched and the shadow is looked up.
-    taps: Disc,
+    pub taps: Disc,
     /// Which depth is compared.
-    depth: Cone,
+    pub depth: Cone,
     /// Width of the light, in texels of the map.
-    light: f32,
+    pub light: f32,
 }
 
 impl Filter for Pcss {

@@ -47,7 +47,7 @@ fn ask<F: Filter>(filter: &F, map: &impl DepthMap, receiver: &Receiver) -> f32 {
 
 /// Texels that differ, without rotation, so that taps are where the vectors say.
 fn still(num_samples: u32, density: Density) -> Disc {
-    Disc { num_samples, density, rotate: false, half_offset: false }
+    Disc::default().with_num_samples(num_samples).with_density(density).with_rotate(false).with_half_offset(false)
 }
 
 fn between(min: f32, max: f32) -> Softness {
@@ -56,7 +56,7 @@ fn between(min: f32, max: f32) -> Softness {
 
 #[test]
 fn v62_b06_1_the_cone_corrected_and_as_printed_e_b1_e_b5() {
-    let cone = Cone { base: 0.1, ..Cone::default() };
+    let cone = Cone::default().with_base(0.1);
     assert_eq!(cone.slope, 2.0);
     let listing = BurleyListing { base: 0.1, slope: 2.0, ..BurleyListing::default() };
     assert_eq!(BurleyListing::default().slope, 1.0);
@@ -67,7 +67,7 @@ fn v62_b06_1_the_cone_corrected_and_as_printed_e_b1_e_b5() {
         assert!((10.0 - cone.bias(radius) - corrected).abs() < 1e-6);
         assert!((listing.compared(10.0, radius) - printed).abs() < 1e-6);
         // World units on the map: τ = 2·10/512 here, so that these radii are 0, 12.8 and 25.6 texels (V31's arithmetic).
-        let nominal = Cone { radius: Radius::Nominal, ..cone };
+        let nominal = cone.with_radius(Radius::Nominal);
         let at = Footprint::point(Vec2::new(256.5 + radius * 25.6, 256.5));
         umbrage_plane::vectorized!(simd => umbrage_sample::Centre.taps(simd, &at, KEY, |taps| {
             lanes.push((nominal.lanes(simd, &view, &tip, taps)[0], corrected));
@@ -106,8 +106,8 @@ fn v63_sample_depth_as_printed_e_b3() {
 
 /// The mean distance that a filter finds, read from the opacity that it leads to: dark times 3x² − 2x³, with x = (z_p − z̄)/20.
 fn mean_found(filter: Soft<Biased>, map: &Raw, receiver: &Receiver) -> f64 {
-    let opacity = Opacity { near: 0.0, far: 1.0, fade: 20.0, gamma: 1.0 };
-    let filter = Soft { opacity, blur: still(1, Density::Uniform), ..filter };
+    let opacity = Opacity::default().with_near(0.0).with_far(1.0).with_fade(20.0).with_gamma(1.0);
+    let filter = filter.with_opacity(opacity).with_blur(still(1, Density::Uniform));
     let found = f64::from(ask(&filter, map, receiver));
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..60 {
@@ -129,7 +129,8 @@ fn v63_b06_4_b06_9_the_mean_of_a_hand_made_map() {
     });
     let receiver = facing(&view, 10.0, Vec2::splat(32.5));
     let plain = presets::fernando(Bias::ZERO);
-    let filter = |density, falloff| Soft { softness: between(0.5, 8.0), search: still(4, density), falloff, ..plain };
+    let filter =
+        |density, falloff| plain.with_softness(between(0.5, 8.0)).with_search(still(4, density)).with_falloff(falloff);
     let weighted = mean_found(filter(Density::Centred, Falloff::Linear { rim: 0.1 }), &filled, &receiver);
     // Weights 1, .55, .325 by the radii 0, 4, 6 of 8.
     let wanted = (5.0 + 8.0 * 0.55 + 3.0 * 0.325) / 1.875;
@@ -162,7 +163,7 @@ fn v64_b06_6_radii_corrected_and_as_printed_e_b4() {
     for nothing in [f32::INFINITY, 12.0, 10.0] {
         let empty = map(&view, |_| nothing);
         assert_eq!(ask(&presets::burley(), &empty, &receiver), 0.0);
-        assert_eq!(ask(&Soft { rescue: true, ..presets::burley() }, &empty, &receiver), 0.0);
+        assert_eq!(ask(&presets::burley().with_rescue(true), &empty, &receiver), 0.0);
     }
 }
 
@@ -199,26 +200,26 @@ fn worst(filter: &Soft<Biased>, view: &View, occluder: f64, radius: f64) -> f64 
 #[test]
 fn v65_d_16_the_light_s_own_penumbra_and_burley_s_t_12() {
     // A light of diameter 2, an occluder at 5, a receiver at 10: half a penumbra is 1 world unit, .1 in tangents, 51.2 texels of 1024.
-    let samples = |density| Disc { num_samples: 4096, density, ..Disc::default() };
+    let samples = |density| Disc::default().with_num_samples(4096).with_density(density);
     let base =
-        Soft { search: samples(Density::Centred), blur: samples(Density::Uniform), ..presets::fernando(Bias::ZERO) };
-    let light = Soft { softness: Softness::Light { radius: 1.0, nearest: 4.0 }, ..base };
+        presets::fernando(Bias::ZERO).with_search(samples(Density::Centred)).with_blur(samples(Density::Uniform));
+    let light = base.with_softness(Softness::Light { radius: 1.0, nearest: 4.0 });
     for kind in [Kind::Axial, Kind::Screen] {
         let view = lamp(1024).with_kind(kind);
         let error = worst(&light, &view, 5.0, 51.2);
         assert!(error < 0.012, "{kind:?}: {error}");
         // Burley's is the same where max is ℓ/(2ζ_o): .2 of 1 in tangents of half the map, 102.4 texels, times the factor .5.
-        let burley = Soft { softness: between(0.0, 102.4), ..base };
+        let burley = base.with_softness(between(0.0, 102.4));
         let error = worst(&burley, &view, 5.0, 51.2);
         assert!(error < 0.012, "{kind:?}: {error}");
         // Depths taken from the near plane would give the factor 5/9 and another radius.
         assert!(worst(&burley, &view, 5.0, 102.4 * 5.0 / 9.0) > 0.02);
         // The gamma shapes the factor.
-        assert!(worst(&Soft { radius_gamma: 2.0, ..burley }, &view, 5.0, 25.6) < 0.02);
+        assert!(worst(&burley.with_radius_gamma(2.0), &view, 5.0, 25.6) < 0.02);
     }
     // A sun of angular radius ω: half a penumbra is (10 − 5)·tan ω.
     let sun = View::orthographic(DVec3::ZERO, DVec3::NEG_Y, DVec3::NEG_Z, 10.0, 0.0, 50.0, UVec2::splat(1024)).unwrap();
-    let light = Soft { softness: Softness::Light { radius: 0.1, nearest: 1.0 }, ..base };
+    let light = base.with_softness(Softness::Light { radius: 0.1, nearest: 1.0 });
     let error = worst(&light, &sun, 5.0, 0.5 / (20.0 / 1024.0));
     assert!(error < 0.02, "{error}");
 }
@@ -230,7 +231,7 @@ fn b06_6_units_of_radii_agree_and_wide_blurs_are_cut_off() {
     let receiver = facing(&view, 10.0, Vec2::new(128.3, 64.4));
     let answer = |extent: fn(f32) -> Extent, size: f32| {
         let softness = Softness::Between { min: extent(0.1 * size), max: extent(size) };
-        ask(&Soft { softness, ..presets::burley() }, &caster, &receiver)
+        ask(&presets::burley().with_softness(softness), &caster, &receiver)
     };
     // 1/16 of the map is 16 columns and 8 rows; a texel is 20/256 wide and 20/128 high.
     let (share, world) = (answer(Extent::Share, 1.0 / 16.0), answer(Extent::World, 1.25));
@@ -239,7 +240,7 @@ fn b06_6_units_of_radii_agree_and_wide_blurs_are_cut_off() {
     let square = lamp(256);
     let caster = map(&square, |texel| if texel.x + texel.y > 250 { 4.0 } else { f32::INFINITY });
     let receiver = facing(&square, 10.0, Vec2::splat(128.3));
-    let answer = |softness| ask(&Soft { softness, ..presets::burley() }, &caster, &receiver);
+    let answer = |softness| ask(&presets::burley().with_softness(softness), &caster, &receiver);
     let sized = |extent: fn(f32) -> Extent, size: f32| Softness::Between { min: extent(0.5 * size), max: extent(size) };
     let texels = answer(sized(Extent::Texels, 16.0));
     assert!(texels > 0.0 && texels < 1.0);
@@ -252,7 +253,7 @@ fn b06_6_units_of_radii_agree_and_wide_blurs_are_cut_off() {
 fn b06_10_opacity_by_distance_is_monotone_and_off_by_default() {
     assert_eq!(presets::burley().opacity, Opacity::FULL);
     for (near, far, gamma) in [(1.0, 0.2, 1.0), (0.1, 0.9, 1.0), (1.0, 0.0, 2.5), (0.3, 1.0, 0.4)] {
-        let opacity = Opacity { near, far, fade: 8.0, gamma };
+        let opacity = Opacity::default().with_near(near).with_far(far).with_fade(8.0).with_gamma(gamma);
         let shares: Vec<f32> = (-4..40).map(|step| opacity.at(step as f32 * 0.5)).collect();
         let forward = shares.windows(2).all(|pair| if far > near { pair[1] >= pair[0] } else { pair[1] <= pair[0] });
         assert!(forward, "{opacity:?}: {shares:?}");
@@ -264,8 +265,8 @@ fn b06_10_opacity_by_distance_is_monotone_and_off_by_default() {
     assert_eq!(Opacity::FULL.at(1e30), 1.0);
     // Through the filter: an occluder 3 world units away, over half a fade of 6, and no more of it inside the cone than its tip.
     let view = lamp(64);
-    let opacity = Opacity { near: 1.0, far: 0.0, fade: 6.0, gamma: 1.0 };
-    let filter = Soft { opacity, softness: between(0.5, 2.0), ..presets::burley() };
+    let opacity = Opacity::default().with_near(1.0).with_far(0.0).with_fade(6.0).with_gamma(1.0);
+    let filter = presets::burley().with_opacity(opacity).with_softness(between(0.5, 2.0));
     let found = ask(&filter, &map(&view, |_| 7.0), &facing(&view, 10.0, Vec2::splat(32.2)));
     assert!((found - 0.5).abs() < 1e-5, "{found}");
 }
@@ -277,11 +278,9 @@ fn b06_5_b06_8_b06_13_sample_counts_are_their_own_and_contact_is_a_constant_radi
     let receiver = facing(&view, 10.0, Vec2::splat(62.3));
     let counted = |search, blur| {
         let mut counters = Counters::default();
-        let filter = Soft {
-            search: Disc { num_samples: search, ..presets::burley().search },
-            blur: Disc { num_samples: blur, ..presets::burley().blur },
-            ..presets::burley()
-        };
+        let filter = presets::burley()
+            .with_search(presets::burley().search.with_num_samples(search))
+            .with_blur(presets::burley().blur.with_num_samples(blur));
         probe(&filter, &caster, &receiver, KEY, &mut counters);
         counters.lookups
     };
@@ -289,8 +288,8 @@ fn b06_5_b06_8_b06_13_sample_counts_are_their_own_and_contact_is_a_constant_radi
     assert_eq!((presets::burley().search.num_samples, presets::burley().blur.num_samples), (32, 32));
     // The picture of before: a constant radius, a constant bias. Soft with min = max is the same share wherever it finds an occluder.
     let depth = Biased::constant(Bias::World(0.1));
-    let before = Pcf { pattern: Disc::default(), depth, res_factor: 0.0, min_size: 8.0, cull: true };
-    let after = Soft { softness: between(8.0, 8.0), ..presets::fernando(Bias::World(0.1)) };
+    let before = Pcf::default().with_pattern(Disc::default()).with_depth(depth).with_res_factor(0.0).with_min_size(8.0);
+    let after = presets::fernando(Bias::World(0.1)).with_softness(between(8.0, 8.0));
     for i in 0..200 {
         let receiver = facing(&view, 10.0, Vec2::new(50.0 + 0.1 * i as f32, 64.0));
         let key = KEY.region(i);
@@ -306,28 +305,26 @@ fn e_b9_what_only_the_blur_meets_is_kept_by_the_rescue() {
     let view = lamp(64);
     let lone = map(&view, |texel| if texel == IVec2::new(34, 34) { 4.0 } else { f32::INFINITY });
     let receiver = facing(&view, 10.0, Vec2::splat(32.5));
-    let filter = Soft {
-        softness: between(4.0, 4.0),
-        search: still(8, Density::Centred),
-        blur: still(8, Density::Uniform),
-        ..presets::burley()
-    };
+    let filter = presets::burley()
+        .with_softness(between(4.0, 4.0))
+        .with_search(still(8, Density::Centred))
+        .with_blur(still(8, Density::Uniform));
     assert_eq!(ask(&filter, &lone, &receiver), 0.0);
-    assert_eq!(ask(&Soft { rescue: true, ..filter }, &lone, &receiver), 0.125);
+    assert_eq!(ask(&filter.with_rescue(true), &lone, &receiver), 0.125);
     // The map's edge makes no difference to that under rules that light what lies outside, nor does a seam between maps.
     let corner = facing(&view, 10.0, Vec2::splat(2.5));
     for rules in [Rules::OPEN, Rules::AROUND] {
         let lone = map(&view.with_rules(rules), |texel| if texel == IVec2::new(4, 4) { 4.0 } else { f32::INFINITY });
         assert_eq!(ask(&filter, &lone, &corner), 0.0);
-        assert_eq!(ask(&Soft { rescue: true, ..filter }, &lone, &corner), 0.125);
+        assert_eq!(ask(&filter.with_rescue(true), &lone, &corner), 0.125);
     }
 }
 
 #[test]
 fn w92_6_e_b7_the_edge_of_a_spot_is_dark_whatever_the_opacity() {
-    let faint = Opacity { near: 0.25, far: 0.25, fade: 1.0, gamma: 1.0 };
+    let faint = Opacity::default().with_near(0.25).with_far(0.25).with_fade(1.0).with_gamma(1.0);
     for rescue in [false, true] {
-        let filter = Soft { softness: between(2.0, 4.0), opacity: faint, rescue, ..presets::burley() };
+        let filter = presets::burley().with_softness(between(2.0, 4.0)).with_opacity(faint).with_rescue(rescue);
         let answer = |rules, x: f32, depth: f32| {
             let view = lamp(64).with_rules(rules);
             ask(&filter, &map(&view, |_| depth), &facing(&view, 10.0, Vec2::new(x, 32.5)))
@@ -348,8 +345,7 @@ fn t_13_rotation_differs_by_region_and_is_still_between_frames() {
     let caster = map(&view, |texel| if (texel.x * 7 + texel.y * 3) % 5 < 2 { 4.0 } else { f32::INFINITY });
     let receiver = facing(&view, 10.0, Vec2::splat(64.2));
     let turned = presets::burley();
-    let unturned =
-        Soft { search: Disc { rotate: false, ..turned.search }, blur: Disc { rotate: false, ..turned.blur }, ..turned };
+    let unturned = turned.with_search(turned.search.with_rotate(false)).with_blur(turned.blur.with_rotate(false));
     let all =
         |filter: &Soft| (0..64).map(|i| probe(filter, &caster, &receiver, KEY.region(i), &mut ())).collect::<Vec<_>>();
     let (still, noisy) = (all(&unturned), all(&turned));
@@ -365,7 +361,7 @@ fn b06_12_any_store_feeds_it() {
     let midpoints = map(&view, |texel| if texel.x < 64 { 5.0 } else { f32::INFINITY });
     for filter in [
         presets::burley(),
-        Soft { depth: Cone { base: 0.1, slope: 0.5, radius: Radius::Nominal }, ..presets::burley() },
+        presets::burley().with_depth(Cone::default().with_base(0.1).with_slope(0.5).with_radius(Radius::Nominal)),
     ] {
         assert_eq!(ask(&filter, &midpoints, &facing(&view, 10.0, Vec2::new(30.3, 64.0))), 1.0);
         assert_eq!(ask(&filter, &midpoints, &facing(&view, 4.0, Vec2::new(30.3, 64.0))), 0.0);

@@ -78,7 +78,7 @@ fn v55_wm94_5_mixed_texels_ask_the_plane_and_equality_is_lit_there() {
     let plane = exact.plane(&view);
     let at = |x, y| plane.at(view.sampling().position(IVec2::new(x, y)));
     assert_eq!([at(7, 7), at(8, 7), at(7, 8), at(8, 8)], [4.75, 5.0, 8.75, 9.0]);
-    let strictly = Conditional { plane: OnPlane::default(), ..presets::wang_molnar94() };
+    let strictly = presets::wang_molnar94().with_plane(OnPlane::default());
     for filter in [strictly, presets::wang_molnar94()] {
         let (fraction, counters) = probed(&filter, &map(&view, second), &exact);
         assert_eq!((fraction, counters.virtual_sampled), (0.0, 1));
@@ -86,7 +86,7 @@ fn v55_wm94_5_mixed_texels_ask_the_plane_and_equality_is_lit_there() {
     // The paper's numbers with .1, whose rounding the slack covers. Plain comparison says a half.
     let tenth = tilted(&view, DVec2::new(8.0, 7.7625), 6.0, DVec2::new(0.1, 4.0));
     assert_eq!(probed(&presets::wang_molnar94(), &map(&view, second), &tenth).0, 0.0);
-    let never = Conditional { when: VirtualWhen::Never, ..presets::wang_molnar94() };
+    let never = presets::wang_molnar94().with_when(VirtualWhen::Never);
     assert_eq!(probed(&never, &map(&view, second), &tenth).0, 0.5);
     // A quarter of the texels really hide it.
     let hidden = |texel| if texel == IVec2::new(7, 7) { 3.0 } else { second(texel) };
@@ -124,8 +124,8 @@ proptest! {
             _ => 0.01,
         });
         let receiver = tilted(&view, DVec2::new(8.0 + x, 8.0 + y), f64::from(depth), DVec2::new(0.3, -0.2));
-        let plane = OnPlane { bias: Bias::World(bias), slack: 1.0, ..OnPlane::default() };
-        let (fraction, counters) = probed(&Conditional { plane, ..presets::wang_molnar94() }, &filled, &receiver);
+        let plane = OnPlane::default().with_bias(Bias::World(bias)).with_slack(1.0);
+        let (fraction, counters) = probed(&presets::wang_molnar94().with_plane(plane), &filled, &receiver);
         let compared = receiver.nearer(&view, Bias::World(bias));
         let (min, max) = (stored.into_iter().fold(f32::INFINITY, f32::min), stored.into_iter().fold(0.0, f32::max));
         prop_assert_eq!(counters.virtual_sampled == 1, min < compared && compared <= max);
@@ -150,8 +150,8 @@ fn weights<P: Pattern>(filter: &Conditional<P>, centre: Vec2, half: Vec2) -> Vec
 fn wm94_6_nearby_texels_which_and_how_many() {
     let nearest = presets::wang_molnar94();
     let centre = Vec2::new(20.3, 21.6);
-    let boxed = |n: u32| Conditional { min_size: 0.5 * n as f32, ..nearest };
-    let region = Conditional { res_factor: 1.0, ..nearest };
+    let boxed = |n: u32| nearest.with_min_size(0.5 * n as f32);
+    let region = nearest.with_res_factor(1.0);
     for (name, filter, half, min, columns, rows) in [
         ("nearest four", nearest, Vec2::ZERO, IVec2::new(19, 21), 2, 2),
         ("nearest four of a large region", nearest, Vec2::splat(5.0), IVec2::new(19, 21), 2, 2),
@@ -171,7 +171,14 @@ fn wm94_6_nearby_texels_which_and_how_many() {
 #[test]
 fn wm94_6_tent_weighs_the_nearest_four_as_bilinear_interpolation_does() {
     let Conditional { res_factor, min_size, plane, min_cos, when, dark_backs, .. } = presets::wang_molnar94();
-    let filter = Conditional { pattern: Tent, res_factor, min_size, plane, min_cos, when, dark_backs };
+    let filter = Conditional::default()
+        .with_pattern(Tent)
+        .with_res_factor(res_factor)
+        .with_min_size(min_size)
+        .with_plane(plane)
+        .with_min_cos(min_cos)
+        .with_when(when)
+        .with_dark_backs(dark_backs);
     for step in 0..50 {
         let centre = Vec2::new(20.0 + KEY.unit(step, 0), 21.0 + KEY.unit(step, 1));
         let corner = (centre - 0.5).floor();
@@ -193,8 +200,7 @@ fn wm94_13_one_bias_serves_both_tests() {
     let at = tilted(&view, DVec2::new(8.2, 8.1), 6.0, DVec2::new(0.5, 0.25));
     let own = sheet(&view, &at);
     let pushed = Receiver { depth: 6.5, eye: at.eye - DVec3::Z * 0.5, ..at };
-    let with =
-        |bias| Conditional { plane: OnPlane { bias, slack: 1.0, ..OnPlane::default() }, ..presets::wang_molnar94() };
+    let with = |bias| presets::wang_molnar94().with_plane(OnPlane::default().with_bias(bias).with_slack(1.0));
     assert_eq!(probed(&with(Bias::World(0.4)), &own, &pushed).0, 1.0);
     assert_eq!(probed(&with(Bias::World(0.6)), &own, &pushed).0, 0.0);
     assert_eq!(presets::wang_molnar94().plane.bias, Bias::ZERO);
@@ -210,11 +216,12 @@ fn wm94_13_only_sheets_and_no_planes_is_percentage_closer_filtering() {
             let bias = [Bias::ZERO, Bias::World(0.05), Bias::Steps(0.5), Bias::Map(1e-3)][i as usize % 4];
             let half = Vec2::new(KEY.unit(i, 7), KEY.unit(i, 8)) * 4.0;
             let receiver = Receiver { footprint: Footprint::boxed(receiver.footprint.centre, half), ..receiver };
-            let plane = OnPlane { bias, ..OnPlane::default() };
+            let plane = OnPlane::default().with_bias(bias);
             let when = VirtualWhen::Never;
-            let ours = Conditional { res_factor: 1.5, plane, when, ..presets::wang_molnar94() };
+            let ours = presets::wang_molnar94().with_res_factor(1.5).with_plane(plane).with_when(when);
             let depth = Biased::constant(bias);
-            let theirs = Pcf { pattern: EveryTexel, depth, res_factor: 1.5, min_size: 1.0, cull: true };
+            let theirs =
+                Pcf::default().with_pattern(EveryTexel).with_depth(depth).with_res_factor(1.5).with_min_size(1.0);
             let (ours, theirs) = (probed(&ours, &stored, &receiver).0, probed(&theirs, &stored, &receiver).0);
             assert_eq!(ours.to_bits(), theirs.to_bits(), "{kind:?} {i}");
         }
@@ -224,10 +231,10 @@ fn wm94_13_only_sheets_and_no_planes_is_percentage_closer_filtering() {
     let steps = map(&view, |texel| if (texel.x + texel.y) % 3 == 0 { 5.0 } else { 6.0 });
     for depth in [5.0, 5.5, 6.0, 6.25] {
         let at = tilted(&view, DVec2::new(8.2, 8.1), depth, DVec2::ZERO);
-        let plane = OnPlane { bias: Bias::World(0.25), ..OnPlane::default() };
+        let plane = OnPlane::default().with_bias(Bias::World(0.25));
         let depth = Biased::constant(Bias::World(0.25));
-        let theirs = Pcf { pattern: EveryTexel, depth, res_factor: 0.0, min_size: 1.0, cull: true };
-        let ours = Conditional { plane, ..presets::wang_molnar94() };
+        let theirs = Pcf::default().with_pattern(EveryTexel).with_depth(depth).with_res_factor(0.0).with_min_size(1.0);
+        let ours = presets::wang_molnar94().with_plane(plane);
         assert_eq!(probed(&ours, &steps, &at).0, probed(&theirs, &steps, &at).0);
     }
 }
@@ -242,7 +249,7 @@ fn wm94_15_always_fails_where_the_tangent_plane_climbs_past_its_occluders() {
     for (when, wanted, asked) in
         [(VirtualWhen::Mixed, 0.0, 0), (VirtualWhen::Always, 0.5, 1), (VirtualWhen::Never, 0.0, 0)]
     {
-        let (fraction, counters) = probed(&Conditional { when, ..presets::wang_molnar94() }, &second, &at);
+        let (fraction, counters) = probed(&presets::wang_molnar94().with_when(when), &second, &at);
         assert_eq!((fraction, counters.virtual_sampled), (wanted, asked), "{when:?}");
     }
 }
@@ -253,7 +260,7 @@ fn wm94_4_t_8_backs_are_shading_s_business_unless_they_are_dark_at_once() {
     let second = map(&view, |_| 6.0);
     let front = tilted(&view, DVec2::new(8.0, 8.0), 6.0, DVec2::new(0.5, 0.0));
     let back = Receiver { facing: -front.facing, normal: -front.normal, ..front };
-    let dark_backs = Conditional { dark_backs: true, ..presets::wang_molnar94() };
+    let dark_backs = presets::wang_molnar94().with_dark_backs(true);
     // On its own second surface a back is lit by depth: shading with max(N·L, 0) must darken it, and |N·L| would not.
     assert_eq!(probed(&presets::wang_molnar94(), &second, &back).0, 0.0);
     assert_eq!(probed(&dark_backs, &second, &back).0, 1.0);
@@ -261,8 +268,7 @@ fn wm94_4_t_8_backs_are_shading_s_business_unless_they_are_dark_at_once() {
     assert_eq!(probed(&dark_backs, &second, &front).0, 0.0);
     // A plane is the same from both sides.
     let mixed = map(&view, |texel| if texel.x < 8 { 5.0 } else { 9.0 });
-    for filter in [presets::wang_molnar94(), Conditional { res_factor: 0.0, min_size: 2.5, ..presets::wang_molnar94() }]
-    {
+    for filter in [presets::wang_molnar94(), presets::wang_molnar94().with_res_factor(0.0).with_min_size(2.5)] {
         assert_eq!(probed(&filter, &mixed, &front), probed(&filter, &mixed, &back));
     }
 }

@@ -29,7 +29,7 @@ pub(super) fn random_plane(view: &View, i: u32, least: f64, most: f64) -> Option
 fn wm94_7_t_11_virtual_samples_lie_where_the_map_was_sampled() {
     let view = lamp(64).with_sampling(Sampling::Jittered { seed: 3 });
     let nearest = presets::wang_molnar94();
-    let around = Conditional { min_size: 1.5, ..nearest };
+    let around = nearest.with_min_size(1.5);
     let (mut four, mut nine, mut elsewhere, mut asked) = (0, 0, 0, 0);
     for i in 0..400 {
         let Some((exact, receiver)) = random_plane(&view, i, 0.2, 0.9) else { continue };
@@ -125,7 +125,7 @@ fn v58_virtual_depths_in_f32_against_f64() {
 }
 
 fn always() -> Conditional {
-    Conditional { when: VirtualWhen::Always, ..presets::wang_molnar94() }
+    presets::wang_molnar94().with_when(VirtualWhen::Always)
 }
 
 #[test]
@@ -142,7 +142,7 @@ fn v41_wm94_10_edge_on_planes_fall_back_and_horizons_are_infinitely_far_d_5() {
     let steep =
         view.receiver(&SurfacePoint::at(Vec3::new(1.0, 1.0, -3.0), Vec3::new(0.995, 0.1, 0.0).normalize())).unwrap();
     for min_cos in [0.5 * steep.facing.abs(), 2.0 * steep.facing.abs()] {
-        let (_, counters) = probed(&Conditional { min_cos, ..always() }, &half_dark, &steep);
+        let (_, counters) = probed(&always().with_min_cos(min_cos), &half_dark, &steep);
         assert_eq!(counters.virtual_sampled == 1, min_cos < steep.facing.abs());
     }
     // The plane of V41 has its horizon at x_n = .2 of the map: beyond it lies behind everything that is stored, in front of nothing.
@@ -158,9 +158,9 @@ fn v41_wm94_10_edge_on_planes_fall_back_and_horizons_are_infinitely_far_d_5() {
         assert_eq!(probed(&always(), &map(&view, |_| stored), &past).0, wanted, "{stored}");
     }
     // A reach keeps the plane near the receiver: 10 ± 1.
-    let plane = OnPlane { reach: 1.0, ..presets::wang_molnar94().plane };
+    let plane = presets::wang_molnar94().plane.with_reach(1.0);
     for (stored, wanted) in [(10.5, 1.0), (11.5, 0.0)] {
-        assert_eq!(probed(&Conditional { plane, ..always() }, &map(&view, |_| stored), &past).0, wanted, "{stored}");
+        assert_eq!(probed(&always().with_plane(plane), &map(&view, |_| stored), &past).0, wanted, "{stored}");
     }
 }
 
@@ -170,7 +170,7 @@ fn sheets(view: &View) -> [u32; 5] {
     for i in 0..3000 {
         let Some((exact, receiver)) = random_plane(view, i, 0.05, 1.0) else { continue };
         let stored = sheet(view, &exact);
-        let strictly = Conditional { plane: OnPlane::default(), ..presets::wang_molnar94() };
+        let strictly = presets::wang_molnar94().with_plane(OnPlane::default());
         let (fraction, counters) = probed(&presets::wang_molnar94(), &stored, &receiver);
         let nearby: Vec<IVec2> =
             TexelRect::around(receiver.footprint.centre - 0.5, Vec2::splat(0.5)).texels().take(4).collect();

@@ -1,3 +1,5 @@
+//! Comparing whole units of depth before fractions (Woo 1992).
+
 use crate::{Biased, Filter, Probe, Query};
 use fearless_simd::Simd;
 use umbrage_depth::DepthMap;
@@ -25,6 +27,7 @@ pub fn behind(receiver: f32, stored: f32, unit: f32) -> (bool, bool) {
 /// Answers as [`Pcf`](crate::Pcf) with a bias of 0 does, bit for bit; a [`Probe`] counts how often whole units settled it. On today's machines it
 /// saves nothing. Deep maps answer by what passes, and count no comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct IntegerFirst<P = Jittered> {
     /// Where to look.
     pub pattern: P,
@@ -40,6 +43,17 @@ impl Default for IntegerFirst {
     /// One world unit; the rest as [`Pcf`](crate::Pcf).
     fn default() -> Self {
         Self { pattern: Jittered::default(), res_factor: 3.0, min_size: 0.0, unit: 1.0 }
+    }
+}
+
+umbrage_plane::builders!([P] IntegerFirst<P> { with_res_factor res_factor: f32, with_min_size min_size: f32, with_unit unit: f32 });
+
+impl<P> IntegerFirst<P> {
+    /// The same, looking elsewhere.
+    #[must_use]
+    pub fn with_pattern<Q: Pattern>(self, pattern: Q) -> IntegerFirst<Q> {
+        let Self { res_factor, min_size, unit, .. } = self;
+        IntegerFirst { pattern, res_factor, min_size, unit }
     }
 }
 

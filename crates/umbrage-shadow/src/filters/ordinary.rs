@@ -10,6 +10,7 @@ use umbrage_sample::{EveryTexel, Pattern};
 /// by the view's rules (spec C-10). Over a deep map the mean is weighted by what each surface stops, and the answer is 0 or what all of them stop
 /// together.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Ordinary<P = EveryTexel> {
     /// Where to look.
     pub pattern: P,
@@ -17,6 +18,24 @@ pub struct Ordinary<P = EveryTexel> {
     pub bias: Bias,
     /// Multiplies the region's size.
     pub res_factor: f32,
+}
+
+impl Default for Ordinary {
+    /// Every texel of the region as it is, no bias.
+    fn default() -> Self {
+        Self { pattern: EveryTexel, bias: Bias::ZERO, res_factor: 1.0 }
+    }
+}
+
+umbrage_plane::builders!([P] Ordinary<P> { with_bias bias: Bias, with_res_factor res_factor: f32 });
+
+impl<P> Ordinary<P> {
+    /// The same, looking elsewhere.
+    #[must_use]
+    pub fn with_pattern<Q: Pattern>(self, pattern: Q) -> Ordinary<Q> {
+        let Self { bias, res_factor, .. } = self;
+        Ordinary { pattern, bias, res_factor }
+    }
 }
 
 impl<P: Pattern> Filter for Ordinary<P> {

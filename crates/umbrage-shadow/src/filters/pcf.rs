@@ -11,7 +11,16 @@ use umbrage_sample::{Jittered, Pattern};
 /// (E-R4); (2) sample counts are clamped in an order that cannot divide by zero (E-R5, E-R6); (3) jitter spans whole cells
 /// (E-R9); (4) positions are floored (E-R10); (5) samples outside the map or the cone answer by the view's rules (E-R13, E-R14);
 /// (6) the cull uses depth ranges and never changes a result (R87-22).
+///
+/// ```
+/// use umbrage_sample::Disc;
+/// use umbrage_shadow::{Cone, Pcf};
+///
+/// let wide = Pcf::default().with_pattern(Disc::default()).with_depth(Cone::default()).with_min_size(2.0);
+/// assert_eq!(wide.res_factor, 3.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Pcf<P = Jittered, D = Biased> {
     /// Where to look.
     pub pattern: P,
@@ -29,6 +38,24 @@ impl Default for Pcf {
     /// The printed listing's values.
     fn default() -> Self {
         Self { pattern: Jittered::default(), depth: Biased::default(), res_factor: 3.0, min_size: 0.0, cull: true }
+    }
+}
+
+umbrage_plane::builders!([P, D] Pcf<P, D> { with_res_factor res_factor: f32, with_min_size min_size: f32, with_cull cull: bool });
+
+impl<P, D> Pcf<P, D> {
+    /// The same, looking elsewhere.
+    #[must_use]
+    pub fn with_pattern<Q: Pattern>(self, pattern: Q) -> Pcf<Q, D> {
+        let Self { depth, res_factor, min_size, cull, .. } = self;
+        Pcf { pattern, depth, res_factor, min_size, cull }
+    }
+
+    /// The same, comparing another depth.
+    #[must_use]
+    pub fn with_depth<E: ReceiverDepth>(self, depth: E) -> Pcf<P, E> {
+        let Self { pattern, res_factor, min_size, cull, .. } = self;
+        Pcf { pattern, depth, res_factor, min_size, cull }
     }
 }
 

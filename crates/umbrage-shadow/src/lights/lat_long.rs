@@ -1,6 +1,6 @@
-use crate::around::nearest;
-use crate::shadow::same_length;
-use crate::{Biased, Pcf, Query, Shadow};
+use super::around::nearest;
+use super::{Shadow, same_length};
+use crate::{Biased, Pcf, Query};
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec2};
 use umbrage_depth::{DepthMap, MapError, Raw};
 use umbrage_plane::{

@@ -1,5 +1,4 @@
 use crate::ReceiverDepth;
-use crate::depth::lane;
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::{DVec2, IVec2};
 use umbrage_plane::{Bias, DepthRange, Receiver, TexelRect, View, floor_texel};
@@ -23,6 +22,7 @@ pub enum Radius {
 /// tilt that is free of false shadow. That is certain with [`Radius::TexelCentre`], whatever the texel (D-15), in maps of
 /// axial and of screen depth, but for rounding at the very tip (see `base`).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Cone {
     /// Bias at the cone's tip, world units, from 0. A receiver exactly on a sample of the map wants the rounding of stored depths, some 10⁻⁶ of
     /// its distance; elsewhere the slope covers it.
@@ -39,6 +39,8 @@ impl Default for Cone {
         Self { base: 0.0, slope: 2.0, radius: Radius::TexelCentre }
     }
 }
+
+umbrage_plane::builders!([] Cone { with_base base: f32, with_slope slope: f32, with_radius radius: Radius });
 
 impl Cone {
     /// The bias at a distance, both in world units (V62).
@@ -58,7 +60,7 @@ impl ReceiverDepth for Cone {
         for i in 0..16 {
             let at = match self.radius {
                 Radius::TexelCentre => view.sampling().position(IVec2::new(column[i], row[i])),
-                Radius::Nominal => lane(taps, i).as_dvec2(),
+                Radius::Nominal => taps.tap(i).at.as_dvec2(),
             };
             let distance = ((at - tip) * world).length() as f32;
             depths[i] = receiver.nearer(view, Bias::World(self.bias(distance)));

@@ -1,53 +1,12 @@
-use crate::query::{Channel, answer};
+use super::{Shadow, Unshadowed, by_channel, same_length};
+use crate::query::answer;
+use crate::surfaces::Channel;
 use crate::{Filter, Probe, Query};
 use fearless_simd::Simd;
 use glam::Vec3;
 use umbrage_depth::{DepthMap, Translucent};
 use umbrage_plane::{Receiver, SurfacePoint, vectorized};
 use umbrage_sample::Key;
-
-/// What shading sees of a shadow algorithm, and the one place where types are erased: a call answers a whole batch of regions.
-///
-/// `key` names the picture's light; the implementor adds each point's region to it.
-pub trait Shadow: Send + Sync {
-    /// The fraction in shadow of each region: 0 lit, 1 dark (spec C-6).
-    ///
-    /// # Panics
-    /// When `out` is not as long as `at`.
-    fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]);
-
-    /// What passes of each region's light, linear RGB in 0..=1, where casters colour it. `fractions` are the answers of
-    /// [`Shadow::fractions`] to the same call; without colours, their complements.
-    ///
-    /// # Panics
-    /// When `fractions` or `out` is not as long as `at`.
-    fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
-        let _ = key;
-        same_length(at, fractions);
-        same_length(at, out);
-        for (passes, fraction) in out.iter_mut().zip(fractions) {
-            *passes = Vec3::splat(1.0 - fraction);
-        }
-    }
-
-    /// The fraction of one region.
-    fn fraction(&self, at: &SurfacePoint, key: Key) -> f32 {
-        let mut out = [0.0];
-        self.fractions(std::slice::from_ref(at), key, &mut out);
-        out[0]
-    }
-}
-
-/// A light that casts no shadow.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Unshadowed;
-
-impl Shadow for Unshadowed {
-    fn fractions(&self, at: &[SurfacePoint], _key: Key, out: &mut [f32]) {
-        same_length(at, out);
-        out.fill(0.0);
-    }
-}
 
 /// A filter over a map; the map owns its view.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -128,23 +87,4 @@ impl<F: Filter, M: DepthMap> Shadow for ShadowMap<F, M> {
         }
         by_channel(at, out, |channel, dark| self.batch(channel, at, key, dark, &mut ()));
     }
-}
-
-/// What passes of red, green and blue light, by the fraction in shadow that `ask` gives for each.
-pub(crate) fn by_channel(at: &[SurfacePoint], out: &mut [Vec3], mut ask: impl FnMut(Channel, &mut [f32])) {
-    same_length(at, out);
-    let mut dark = vec![0.0; at.len()];
-    for channel in 0..3 {
-        ask(Channel::One(channel), &mut dark);
-        for (passes, dark) in out.iter_mut().zip(&dark) {
-            passes[channel] = 1.0 - dark;
-        }
-    }
-}
-
-/// # Panics
-/// When there is not one answer for each point.
-#[track_caller]
-pub(crate) fn same_length<T>(at: &[SurfacePoint], answers: &[T]) {
-    assert_eq!(answers.len(), at.len(), "as many answers as surface points");
 }

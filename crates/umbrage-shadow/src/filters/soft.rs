@@ -127,6 +127,7 @@ impl Falloff {
 
 /// A shadow's density by the way from occluder to receiver (B06-10).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Opacity {
     /// At contact, 0..=1.
     pub near: f32,
@@ -136,6 +137,15 @@ pub struct Opacity {
     pub fade: f32,
     /// Shapes the way between: the share of `fade` is raised to this power before it is smoothed. 1 leaves it alone.
     pub gamma: f32,
+}
+
+umbrage_plane::builders!([] Opacity { with_near near: f32, with_far far: f32, with_fade fade: f32, with_gamma gamma: f32 });
+
+impl Default for Opacity {
+    /// [`Opacity::FULL`].
+    fn default() -> Self {
+        Self::FULL
+    }
 }
 
 impl Opacity {
@@ -183,6 +193,7 @@ impl Mean {
 /// Departures from the printed listing, by the errata of [`as_printed`](crate::as_printed): the bias moves toward the light (E-B1), the blur knows its
 /// point (E-B2), *no occluder* is not a depth of 0 (E-B3), the factor is clamped (E-B4), slope and radius are in world units (E-B5, E-B6).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Soft<D = Cone> {
     /// How wide the blur is.
     pub softness: Softness,
@@ -208,7 +219,7 @@ impl Default for Soft {
     fn default() -> Self {
         Self {
             softness: Softness::Between { min: Extent::Texels(0.5), max: Extent::Texels(16.0) },
-            search: Disc { density: Density::Centred, ..Disc::default() },
+            search: Disc::default().with_density(Density::Centred),
             blur: Disc::default(),
             falloff: Falloff::Linear { rim: 0.1 },
             depth: Cone::default(),
@@ -216,6 +227,25 @@ impl Default for Soft {
             opacity: Opacity::FULL,
             rescue: false,
         }
+    }
+}
+
+umbrage_plane::builders!([D] Soft<D> {
+    with_softness softness: Softness,
+    with_search search: Disc,
+    with_blur blur: Disc,
+    with_falloff falloff: Falloff,
+    with_radius_gamma radius_gamma: f32,
+    with_opacity opacity: Opacity,
+    with_rescue rescue: bool,
+});
+
+impl<D> Soft<D> {
+    /// The same, comparing another depth.
+    #[must_use]
+    pub fn with_depth<E: ReceiverDepth>(self, depth: E) -> Soft<E> {
+        let Self { softness, search, blur, falloff, radius_gamma, opacity, rescue, .. } = self;
+        Soft { softness, search, blur, falloff, depth, radius_gamma, opacity, rescue }
     }
 }
 

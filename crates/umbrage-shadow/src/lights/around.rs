@@ -1,6 +1,7 @@
-use crate::query::{Channel, answer};
-use crate::shadow::{by_channel, same_length};
-use crate::{Filter, Query, Shadow, Unshadowed};
+use super::{Shadow, Unshadowed, by_channel, same_length};
+use crate::query::answer;
+use crate::surfaces::Channel;
+use crate::{Filter, Query};
 use fearless_simd::Simd;
 use glam::{DVec2, DVec3, IVec2, Vec3};
 use std::borrow::Cow;

@@ -50,6 +50,7 @@ pub enum DitherLaw {
 
 /// A random displacement before the look-up (W78-15).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Dither {
     /// Full range of the displacement in x and y, in texels: 1 means ±½. 0 is off; the legal range is 0..=2.
     pub amplitude: f32,
@@ -57,6 +58,15 @@ pub struct Dither {
     pub law: DitherLaw,
     /// Full range of a displacement of the receiver's depth, in units of the map's numbers (the paper's wording admits both); 0 is off.
     pub depth: f32,
+}
+
+umbrage_plane::builders!([] Dither { with_amplitude amplitude: f32, with_law law: DitherLaw, with_depth depth: f32 });
+
+impl Default for Dither {
+    /// [`Dither::OFF`].
+    fn default() -> Self {
+        Self::OFF
+    }
 }
 
 impl Dither {
@@ -87,6 +97,7 @@ impl Dither {
 
 /// Williams' test of one point (W78-11..W78-15). The answer is 0 or 1, except over deep maps, where it is what the surfaces stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Williams {
     /// Moves the point toward the light (W78-11).
     pub bias: Bias,
@@ -94,6 +105,15 @@ pub struct Williams {
     pub lookup: Lookup,
     /// Displacement before the look-up.
     pub dither: Dither,
+}
+
+umbrage_plane::builders!([] Williams { with_bias bias: Bias, with_lookup lookup: Lookup, with_dither dither: Dither });
+
+impl Default for Williams {
+    /// The paper's: [`presets::williams78`](crate::presets::williams78).
+    fn default() -> Self {
+        Self { bias: Bias::Map(2.0 / 65_535.0), lookup: Lookup::Nearest, dither: Dither::OFF }
+    }
 }
 
 impl Filter for Williams {

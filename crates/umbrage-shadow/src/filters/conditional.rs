@@ -27,6 +27,7 @@ pub enum VirtualWhen {
 /// the view's rules (E-M6); (4) there is a bias, of 0 (E-M7, WM94-13); (5) planes that nearly hold the light's ray fall back on plain comparison,
 /// and beyond a plane's horizon its depth is +∞ (E-M8, WM94-10).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Conditional<P = EveryTexel> {
     /// The nearby texels.
     pub pattern: P,
@@ -57,6 +58,24 @@ impl Default for Conditional {
             when: VirtualWhen::Mixed,
             dark_backs: false,
         }
+    }
+}
+
+umbrage_plane::builders!([P] Conditional<P> {
+    with_res_factor res_factor: f32,
+    with_min_size min_size: f32,
+    with_plane plane: OnPlane,
+    with_min_cos min_cos: f32,
+    with_when when: VirtualWhen,
+    with_dark_backs dark_backs: bool,
+});
+
+impl<P> Conditional<P> {
+    /// The same, looking elsewhere.
+    #[must_use]
+    pub fn with_pattern<Q: Pattern>(self, pattern: Q) -> Conditional<Q> {
+        let Self { res_factor, min_size, plane, min_cos, when, dark_backs, .. } = self;
+        Conditional { pattern, res_factor, min_size, plane, min_cos, when, dark_backs }
     }
 }
 

@@ -1,5 +1,4 @@
-use crate::Shadow;
-use crate::shadow::same_length;
+use super::{Shadow, same_length};
 use umbrage_depth::TagMap;
 use umbrage_plane::{SurfacePoint, Verdict};
 use umbrage_sample::Key;

@@ -1,0 +1,78 @@
+use crate::ReceiverDepth;
+use fearless_simd::{Simd, f32x16, prelude::*};
+use umbrage_plane::{Bias, DepthRange, Receiver, TexelRect, View};
+use umbrage_sample::{Taps, radical_inverses};
+
+/// How a bias is taken from its range at each tap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Spread {
+    /// At random (Reeves 1987, R87-14): a surface that curves away shadows itself gradually, with noise.
+    #[default]
+    Random,
+    /// As a ramp: tap k takes the radical inverse of k, so that the taps of a region share the range without noise; evenly when
+    /// they are a power of two. Bias and place in the region then go together, as taps come row by row.
+    Ramp,
+}
+
+/// One depth for the whole region, moved toward the light by a bias from a range (Reeves 1987, §3.2 and Fig. 4; R87-14).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Biased {
+    /// Smallest bias.
+    pub low: Bias,
+    /// Largest bias; equal to `low` for a fixed bias. Never reached exactly when it differs.
+    pub high: Bias,
+    /// How a tap's bias is taken from the range.
+    pub spread: Spread,
+}
+
+umbrage_plane::builders!([] Biased { with_low low: Bias, with_high high: Bias, with_spread spread: Spread });
+
+impl Biased {
+    /// The same bias at every tap.
+    pub const fn constant(bias: Bias) -> Self {
+        Self { low: bias, high: bias, spread: Spread::Random }
+    }
+
+    /// World units drawn at random from `low..high`.
+    pub const fn world(low: f32, high: f32) -> Self {
+        Self { low: Bias::World(low), high: Bias::World(high), spread: Spread::Random }
+    }
+
+    #[inline(always)]
+    fn ends(&self, view: &View, receiver: &Receiver) -> (f32, f32) {
+        (receiver.nearer(view, self.low), receiver.nearer(view, self.high))
+    }
+}
+
+impl Default for Biased {
+    /// Reeves' (0.3, 0.4), for worlds of about 100 units.
+    fn default() -> Self {
+        Self::world(0.3, 0.4)
+    }
+}
+
+impl ReceiverDepth for Biased {
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
+        let (near_end, far_end) = self.ends(view, receiver);
+        if near_end == far_end || !(far_end - near_end).is_finite() {
+            return f32x16::splat(simd, near_end);
+        }
+        let share = match self.spread {
+            Spread::Random => taps.u,
+            Spread::Ramp => radical_inverses(simd, taps.first),
+        };
+        share * (far_end - near_end) + near_end
+    }
+
+    #[inline(always)]
+    fn bounds(&self, view: &View, receiver: &Receiver, _rect: TexelRect) -> DepthRange {
+        let (near_end, far_end) = self.ends(view, receiver);
+        if near_end == far_end || !(far_end - near_end).is_finite() {
+            return DepthRange { min: near_end, max: near_end };
+        }
+        let last = near_end + (far_end - near_end);
+        DepthRange { min: near_end.min(last), max: near_end.max(last) }
+    }
+}

@@ -1,0 +1,71 @@
+use crate::ReceiverDepth;
+use fearless_simd::{Simd, f32x16, prelude::*};
+use glam::IVec2;
+use umbrage_plane::{Bias, DepthRange, Kind, Receiver, TexelRect, View, floor_texel};
+use umbrage_sample::Taps;
+
+/// The receiver's tangent plane where the texel that is read was sampled, moved toward the light
+/// (the receiver plane of R87-13 and E-R16; the virtual sample of Wang & Molnar 1994, WM94-7 to WM94-10).
+///
+/// A plane then needs no bias for slope, only for rounding. One that is edge-on to the light has the receiver's own depth everywhere; one whose
+/// horizon is passed is at +∞ there, behind everything that is stored (D-5).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct OnPlane {
+    /// Moves the whole plane toward the light.
+    pub bias: Bias,
+    /// Moves it by so many times the rounding of its own depths: 4·10⁻⁶ of screen depth, 10⁻⁶ of other depths, both over |N·L|
+    /// (WM94-12, V58). 1 lets a flat sheet be its own second surface.
+    pub slack: f32,
+    /// The plane's depth goes no farther than this from the receiver's own, in the map's units; +∞ lets it (WM94-10).
+    pub reach: f32,
+}
+
+impl Default for OnPlane {
+    /// The plane itself.
+    fn default() -> Self {
+        Self { bias: Bias::ZERO, slack: 0.0, reach: f32::INFINITY }
+    }
+}
+
+umbrage_plane::builders!([] OnPlane { with_bias bias: Bias, with_slack slack: f32, with_reach reach: f32 });
+
+impl OnPlane {
+    /// The plane moved by a bias.
+    pub const fn biased(bias: Bias) -> Self {
+        Self { bias, slack: 0.0, reach: f32::INFINITY }
+    }
+
+    /// How far the plane is moved away from the receiver's own depth, in the map's units; ≤ 0 is toward the light.
+    #[inline(always)]
+    fn shift(&self, view: &View, receiver: &Receiver) -> f32 {
+        let rounding = if view.kind() == Kind::Screen { 4e-6 } else { 1e-6 * receiver.depth.abs() };
+        // At the least cosine that Wang & Molnar's rule looks at.
+        let slack = self.slack * rounding / receiver.facing.abs().max(0.02);
+        (receiver.nearer(view, self.bias) - receiver.depth) - slack
+    }
+}
+
+impl ReceiverDepth for OnPlane {
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
+        let plane = receiver.plane(view);
+        let shift = self.shift(view, receiver);
+        let (column, row) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
+        let (low, high) = (receiver.depth - self.reach, receiver.depth + self.reach);
+        let mut depths = [0.0; 16];
+        for i in 0..16 {
+            let depth = plane.at(view.sampling().position(IVec2::new(column[i], row[i])));
+            depths[i] = depth.max(low).min(high) + shift;
+        }
+        f32x16::load_array(simd, depths)
+    }
+
+    #[inline(always)]
+    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
+        let shift = self.shift(view, receiver);
+        let plane = receiver.plane(view).bounds(rect);
+        let kept = |depth: f32| depth.max(receiver.depth - self.reach).min(receiver.depth + self.reach);
+        DepthRange { min: kept(plane.min) + shift, max: kept(plane.max) + shift }
+    }
+}

@@ -1,0 +1,67 @@
+//! Every filter of the crates, and those of strangers.
+
+use super::Subject;
+use crate::outside::{Pcss, Variance};
+use umbrage_plane::Bias;
+use umbrage_sample::{
+    AnyPattern, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Tent, Uniform,
+};
+use umbrage_shadow::williams::{Dither, Guard, Lookup};
+use umbrage_shadow::{
+    AnyDepth, Biased, Conditional, Cone, Extent, IntegerFirst, OnPlane, Opacity, Ordinary, Pcf, Radius, Soft, Softness,
+    VirtualWhen, Williams,
+};
+
+/// Each filter with the parameters that change what it does. Patterns and depths are chosen when the program runs, so that this costs
+/// one compiled body per filter; the types that have no choice are listed as users name them.
+pub fn every_filter() -> Vec<Subject> {
+    let reeves = |pattern: AnyPattern, depth: AnyDepth| {
+        Pcf::default().with_pattern(pattern).with_depth(depth).with_res_factor(1.0).with_min_size(1.0)
+    };
+    let plane = || OnPlane::biased(Bias::Texels(0.5)).into();
+    let wang = |pattern: AnyPattern| Conditional::default().with_pattern(pattern);
+    let burley = || Soft::default().with_depth(AnyDepth::from(Cone::default()));
+    let light = |radius| Softness::Light { radius, nearest: 2.0 };
+    let between = Softness::Between { min: Extent::Share(0.01), max: Extent::World(0.9) };
+    let opacity = Opacity::default().with_far(0.2).with_fade(1e3).with_gamma(0.7);
+    let bilinear = |guard| Williams::default().with_lookup(Lookup::Bilinear(guard));
+    vec![
+        Subject::new("pcf", Pcf::default()),
+        Subject::new(
+            "pcf without culling",
+            reeves(Jittered::default().into(), Biased::default().into()).with_cull(false),
+        ),
+        Subject::new("every texel on the plane", reeves(EveryTexel.into(), plane())),
+        Subject::new("one tap", reeves(Centre.into(), Biased::constant(Bias::Texels(1.0)).into())),
+        Subject::new("a tent in a cone", reeves(Tent.into(), Cone::default().into())),
+        Subject::new("uniform taps", reeves(Uniform::default().into(), Biased::default().into())),
+        Subject::new("normal taps", reeves(Gaussian::default().into(), plane())),
+        Subject::new("inside the quadrilateral", reeves(InsideQuadReject::default().into(), Biased::default().into())),
+        Subject::new("warped onto it", reeves(InsideQuadWarp::default().into(), plane())),
+        Subject::new(
+            "a disc in a nominal cone",
+            reeves(Disc::default().into(), Cone::default().with_radius(Radius::Nominal).into()),
+        ),
+        Subject::new("whole units first", IntegerFirst::default()),
+        Subject::new("depths filtered first", Ordinary::default().with_bias(Bias::World(0.3)).with_res_factor(2.0)),
+        Subject::new("williams", Williams::default().with_dither(Dither::HALF_TEXEL)),
+        Subject::new("williams, interpolated", bilinear(Guard::default())),
+        Subject::new("williams, faithful", bilinear(Guard::Faithful).with_bias(Bias::Steps(1.0))),
+        Subject::new("wang and molnar", Conditional::default()),
+        Subject::new("wang and molnar, weighted", wang(Tent.into()).with_res_factor(1.0)),
+        Subject::new(
+            "wang and molnar, always",
+            wang(EveryTexel.into()).with_when(VirtualWhen::Always).with_min_size(1.5),
+        ),
+        Subject::new("burley", Soft::default()),
+        Subject::new("burley, rescued", burley().with_rescue(true)),
+        Subject::new(
+            "burley, faint far away",
+            burley().with_softness(between).with_opacity(opacity).with_radius_gamma(0.5),
+        ),
+        Subject::new("burley, by the light's size", burley().with_softness(light(0.5))),
+        Subject::new("burley, on the plane", burley().with_depth(AnyDepth::from(OnPlane::default().with_slack(1.0)))),
+        Subject::new("a stranger's variance", Variance::default()),
+        Subject::new("a stranger's soft shadow", Pcss { taps: Disc::default(), depth: Cone::default(), light: 4.0 }),
+    ]
+}
