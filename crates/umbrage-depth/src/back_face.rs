@@ -1,4 +1,4 @@
-use crate::DepthRule;
+use crate::{DepthRule, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -20,6 +20,10 @@ impl DepthRule for BackFace {
         if key < *cell && (!front || facet.sheet) {
             *cell = key;
         }
+    }
+
+    fn stored(&self) -> Stored {
+        Stored::BackFace
     }
 
     #[inline(always)]

@@ -1,4 +1,4 @@
-use crate::DepthRule;
+use crate::{DepthRule, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -16,6 +16,10 @@ impl DepthRule for First {
         if key < *cell {
             *cell = key;
         }
+    }
+
+    fn stored(&self) -> Stored {
+        Stored::First
     }
 
     #[inline(always)]

@@ -10,6 +10,8 @@
 //! | [`Second`] | of the second surface, by two buffers | Wang & Molnar 1994 |
 //! | [`BackFace`] | of the nearest surface that faces away | Wang & Molnar 1994 |
 //!
+//! [`Stored`] names the surface that a rule keeps, whatever its parameters.
+//!
 //! | storage | keeps |
 //! |---|---|
 //! | [`Raw`] | every texel |
@@ -48,6 +50,7 @@ mod raw;
 mod rows;
 mod rule;
 mod second;
+mod stored;
 mod tags;
 mod tiled;
 
@@ -62,5 +65,6 @@ pub use quantise::{quantise, quantum};
 pub use raw::{MapError, Raw};
 pub use rule::DepthRule;
 pub use second::Second;
+pub use stored::Stored;
 pub use tags::TagMap;
 pub use tiled::{TILE, Tile, Tiled};

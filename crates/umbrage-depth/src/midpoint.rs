@@ -1,4 +1,4 @@
-use crate::DepthRule;
+use crate::{DepthRule, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -65,6 +65,10 @@ impl DepthRule for Midpoint {
         } else if key < cell.second && !self.is_first(cell, key, object) {
             cell.second = key;
         }
+    }
+
+    fn stored(&self) -> Stored {
+        Stored::Midpoint
     }
 
     #[inline(always)]

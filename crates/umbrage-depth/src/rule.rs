@@ -1,3 +1,4 @@
+use crate::Stored;
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -15,6 +16,9 @@ pub trait DepthRule: Sync {
 
     /// Offers one fragment: its key at the texel's sample position and whether its outside is seen there. A key of NaN changes nothing.
     fn add(&self, pass: u32, cell: &mut Self::Cell, key: f32, front: bool, facet: &Facet);
+
+    /// Which surface the depths of this rule belong to; [`Stored::Other`] for a rule that none of the others name.
+    fn stored(&self) -> Stored;
 
     /// The depth to store, at the texel's sample position; +∞ where nothing is.
     fn resolve(&self, cell: Self::Cell, decode: &Decode, at: DVec2) -> f32;

@@ -1,7 +1,7 @@
 use crate::pass1::Pass;
 use glam::{DVec2, UVec2};
 use rayon::prelude::*;
-use umbrage_depth::{DepthRule, TagMap};
+use umbrage_depth::{DepthRule, Stored, TagMap};
 use umbrage_plane::{Decode, Facet, TexelRect, View};
 use umbrage_raster::{Bins, Cull, TILE, Triangle};
 
@@ -16,6 +16,10 @@ impl DepthRule for Nearest {
         if key < cell.0 || (key == cell.0 && facet.object < cell.1) {
             *cell = (key, facet.object);
         }
+    }
+
+    fn stored(&self) -> Stored {
+        Stored::First
     }
 
     fn resolve(&self, cell: (f32, u32), decode: &Decode, at: DVec2) -> f32 {

@@ -6,7 +6,7 @@ use crate::diagram::{Diagram, Ink, Mark};
 use crate::figure::{Context, Figure, Made, Measure, Panel, Paper, Role, Table};
 use crate::plot::{Axis, Plot, Series};
 use glam::{DVec2, DVec3, UVec2, Vec3};
-use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Raw, Second, Tiled};
+use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Raw, Second, Stored, Tiled};
 use umbrage_oracle::metrics;
 use umbrage_plane::{Decode, Facet, SurfacePoint};
 use umbrage_raster::Cull;
@@ -168,6 +168,9 @@ impl DepthRule for Third {
                 std::mem::swap(kept, &mut key);
             }
         }
+    }
+    fn stored(&self) -> Stored {
+        Stored::Other
     }
     fn resolve(&self, cell: [f32; 3], decode: &Decode, at: DVec2) -> f32 {
         decode.depth(cell[2], at)
