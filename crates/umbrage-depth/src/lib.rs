@@ -1,6 +1,6 @@
 //! What a shadow map stores: depth rules and storages.
 //!
-//! A [`DepthRule`] says which of the surfaces over a texel is kept while a map is drawn; a [`DepthMap`] keeps the result and
+//! A [`DepthRule`] says which of the surfaces over a texel is kept while a map is drawn, as a [`Reduction`] whose cells become depths; a [`DepthMap`] keeps the result and
 //! answers look-ups. All storages of one map give the same answers, bit for bit.
 //!
 //! | rule | stored depth | source |
@@ -43,6 +43,7 @@ mod bandlimit;
 mod bbox;
 mod deep;
 mod first;
+mod hit;
 mod map;
 mod midpoint;
 mod quantise;
@@ -59,11 +60,12 @@ pub use bandlimit::bandlimit;
 pub use bbox::Bbox;
 pub use deep::{DeepMap, Step, compress};
 pub use first::First;
+pub use hit::Hit;
 pub use map::DepthMap;
 pub use midpoint::{Midpoint, MidpointCell, Same};
 pub use quantise::{quantise, quantum};
 pub use raw::{MapError, Raw};
-pub use rule::DepthRule;
+pub use rule::{DepthRule, Reduction};
 pub use second::Second;
 pub use stored::Stored;
 pub use tags::TagMap;

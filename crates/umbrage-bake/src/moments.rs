@@ -1,13 +1,11 @@
 use umbrage_depth::{DepthMap, Raw, Tiled};
 use umbrage_plane::{Sampling, View, mix32};
-use umbrage_scene::Scene;
 
-/// Pass 1 over an exposure: each texel sees the scene at one of its moments, drawn once per texel from `seed` (EXT-2). A filter over such a
-/// map blurs what moves, with noise.
+/// One map of an exposure from the maps of its moments: each texel sees one of them, drawn once per texel from `seed` (EXT-2). A filter over
+/// such a map blurs what moves, with noise.
 ///
-/// `moments` are the scene at evenly spread times, each made into a map of `view` by `bake`; none gives an empty map.
-pub fn bake_moments(view: &View, moments: &[&Scene], seed: u32, bake: impl Fn(&Scene) -> Tiled) -> Tiled {
-    let maps: Vec<Tiled> = moments.iter().map(|scene| bake(scene)).collect();
+/// `maps` are of `view`, at evenly spread times; none of them gives an empty map, and texels that one of them does not have are empty in it.
+pub fn mix_moments(view: &View, maps: &[Tiled], seed: u32) -> Tiled {
     let moment = |texel| {
         // Of its own seed: the view's samples may be jittered by the same one, and time must not go with place.
         let bits = Sampling::Jittered { seed: mix32(seed ^ 0x71E5) }.offset_256(texel);
