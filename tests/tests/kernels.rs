@@ -2,10 +2,11 @@
 
 use fearless_simd::{Level, dispatch};
 use glam::{UVec2, Vec2};
+use umbrage_bake::bake;
 use umbrage_depth::{Bbox, DepthMap, First, Raw, Tiled};
 use umbrage_plane::{Bias, Footprint, Kind, Receiver, Sampling, SurfacePoint, Verdict, View};
 use umbrage_raster::Cull;
-use umbrage_render::{Soup, bake};
+use umbrage_render::Soup;
 use umbrage_sample::{
     Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Tent, Uniform,
     each_tap,

@@ -10,7 +10,7 @@ use umbrage_raster::Triangle;
 /// use umbrage_bake::Caster;
 /// use umbrage_raster::Triangle;
 ///
-/// let corners = [Vec3::ZERO, Vec3::X, Vec3::Y].map(Into::into);
+/// let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
 /// let leaf = Caster::from(Triangle { corners, object: 3, sheet: true }).with_opacity(0.75);
 /// assert_eq!((leaf.passes, leaf.normals), (Vec3::splat(0.25), None));
 /// ```

@@ -1,11 +1,12 @@
 //! Williams' post-process: points of a finished picture through one matrix, and the stages behind the comparison.
 
 use glam::{DVec3, UVec2, Vec3};
+use umbrage_bake::bake;
 use umbrage_depth::{First, Raw, Tiled};
 use umbrage_plane::{Bias, Kind, Rules, View};
 use umbrage_raster::Cull;
 use umbrage_render::post::{darken, low_pass, shadow_image};
-use umbrage_render::{Frame, Soup, bake, picture};
+use umbrage_render::{Frame, Soup, picture};
 use umbrage_sample::Key;
 use umbrage_scene::{Scene, gallery};
 use umbrage_shadow::williams::{Dither, Lookup};
