@@ -1,6 +1,6 @@
 //! The laws of filters, held against every filter, and against filters, storages and depths that break them.
 
-use fearless_simd::{Simd, f32x16, prelude::*};
+use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use umbrage_depth::{Bbox, DepthMap, Raw, Tiled};
 use umbrage_plane::{Bias, DepthRange, Receiver, TexelRect, View};
@@ -13,6 +13,9 @@ fn c_10_b06_11_r87_21_r87_22_every_filter_keeps_every_law() {
     for subject in every_filter() {
         laws::hold(&subject).unwrap();
     }
+    let darkness = ["an empty map is lit and a full one dark", "a veil passes its fraction, in colour too"];
+    assert!(darkness.iter().all(|name| laws::EVERY.iter().any(|(law, _)| law == name)));
+    laws::hold_but(&laws::thinning(), &darkness).unwrap();
 }
 
 #[test]
@@ -73,7 +76,7 @@ struct Honest;
 
 impl Filter for Honest {
     fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32 {
-        mean(query, umbrage_shadow::Seen::dark)
+        mean(query, |seen| seen.dark())
     }
 }
 

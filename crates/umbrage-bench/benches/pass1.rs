@@ -4,9 +4,10 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::UVec2;
 use std::hint::black_box;
+use umbrage_bake::bake;
 use umbrage_depth::First;
 use umbrage_raster::{Cull, Triangle};
-use umbrage_render::{Soup, bake};
+use umbrage_render::Soup;
 use umbrage_scene::gallery;
 
 fn bakes(criterion: &mut Criterion) {

@@ -1,4 +1,4 @@
-use crate::DepthRule;
+use crate::{DepthRule, Reduction, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -10,7 +10,7 @@ use umbrage_plane::{Decode, Facet};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BackFace;
 
-impl DepthRule for BackFace {
+impl Reduction for BackFace {
     /// The smallest key among those that take part.
     type Cell = f32;
     const EMPTY: f32 = f32::INFINITY;
@@ -20,6 +20,12 @@ impl DepthRule for BackFace {
         if key < *cell && (!front || facet.sheet) {
             *cell = key;
         }
+    }
+}
+
+impl DepthRule for BackFace {
+    fn stored(&self) -> Stored {
+        Stored::BackFace
     }
 
     #[inline(always)]

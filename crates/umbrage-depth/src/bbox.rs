@@ -1,4 +1,4 @@
-use crate::{DepthMap, Raw, Tiled, rows};
+use crate::{DepthMap, Raw, Stored, Tiled, rows};
 use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use umbrage_plane::{DepthRange, TexelRect, View};
@@ -7,11 +7,19 @@ use umbrage_plane::{DepthRange, TexelRect, View};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bbox {
     view: View,
+    stored: Stored,
     rect: TexelRect,
     depths: Vec<f32>,
 }
 
 impl Bbox {
+    /// The same depths, said to be those of another surface. A new map's are those of the nearest, a copy's those of the map it
+    /// is made from.
+    #[must_use]
+    pub fn with_stored(self, stored: Stored) -> Self {
+        Self { stored, ..self }
+    }
+
     /// The rectangle around all surfaces of another map.
     pub fn copy_of(map: &impl DepthMap) -> Self {
         Self::within(map, TexelRect::of_size(map.view().size()))
@@ -20,7 +28,7 @@ impl Bbox {
     /// As [`Bbox::copy_of`], of a map whose surfaces are all known to lie in `within`.
     fn within(map: &impl DepthMap, within: TexelRect) -> Self {
         let rect = rows::finite(map, within);
-        Self { view: *map.view(), rect, depths: rows::copy(map, rect) }
+        Self { view: *map.view(), stored: map.stored(), rect, depths: rows::copy(map, rect) }
     }
 
     /// The rectangle that is kept: the smallest around all texels with a surface; empty when there are none.
@@ -52,6 +60,10 @@ impl DepthMap for Bbox {
     #[inline(always)]
     fn range(&self, rect: TexelRect) -> DepthRange {
         if self.rect.intersect(rect).is_empty() { DepthRange::NOTHING } else { DepthRange::UNKNOWN }
+    }
+
+    fn stored(&self) -> Stored {
+        self.stored
     }
 
     fn bytes(&self) -> usize {

@@ -75,6 +75,12 @@ impl DeepMap {
         let index = texel.y as usize * rect.size().x as usize + texel.x as usize;
         &self.steps[self.starts[index]..self.starts[index + 1]]
     }
+
+    /// Fraction of the light that passes all surfaces of a texel nearer than `depth`, linear RGB; all of it for NaN.
+    #[inline(always)]
+    pub fn transmittance(&self, texel: IVec2, depth: f32) -> Vec3 {
+        transmittance(self.steps(texel), depth)
+    }
 }
 
 impl DepthMap for DeepMap {
@@ -110,7 +116,7 @@ impl Translucent for DeepMap {
 
     #[inline(always)]
     fn transmittance(&self, texel: IVec2, depth: f32) -> Vec3 {
-        transmittance(self.steps(texel), depth)
+        self.transmittance(texel, depth)
     }
 }
 

@@ -1,4 +1,4 @@
-use crate::DepthRule;
+use crate::{DepthRule, Reduction, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -6,7 +6,7 @@ use umbrage_plane::{Decode, Facet};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct First;
 
-impl DepthRule for First {
+impl Reduction for First {
     /// The smallest key.
     type Cell = f32;
     const EMPTY: f32 = f32::INFINITY;
@@ -16,6 +16,12 @@ impl DepthRule for First {
         if key < *cell {
             *cell = key;
         }
+    }
+}
+
+impl DepthRule for First {
+    fn stored(&self) -> Stored {
+        Stored::First
     }
 
     #[inline(always)]

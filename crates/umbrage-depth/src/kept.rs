@@ -1,4 +1,4 @@
-use crate::{Bbox, DeepMap, DepthMap, Raw, Tiled, Translucent};
+use crate::{Bbox, DeepMap, DepthMap, Raw, Stored, Tiled, Translucent};
 use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use std::str::FromStr;
@@ -139,6 +139,10 @@ impl DepthMap for Map {
     #[inline(always)]
     fn translucent(&self) -> Option<&dyn Translucent> {
         each!(self, map => map.translucent())
+    }
+
+    fn stored(&self) -> Stored {
+        each!(self, map => map.stored())
     }
 
     fn bytes(&self) -> usize {

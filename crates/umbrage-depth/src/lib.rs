@@ -1,6 +1,6 @@
 //! What a shadow map stores: depth rules and storages.
 //!
-//! A [`DepthRule`] says which of the surfaces over a texel is kept while a map is drawn; a [`DepthMap`] keeps the result and
+//! A [`DepthRule`] says which of the surfaces over a texel is kept while a map is drawn, as a [`Reduction`] whose cells become depths; a [`DepthMap`] keeps the result and
 //! answers look-ups. All storages of one map give the same answers, bit for bit.
 //!
 //! | rule | stored depth | source |
@@ -9,6 +9,8 @@
 //! | [`Midpoint`] | halfway between the two nearest | Woo 1992 |
 //! | [`Second`] | of the second surface, by two buffers | Wang & Molnar 1994 |
 //! | [`BackFace`] | of the nearest surface that faces away | Wang & Molnar 1994 |
+//!
+//! [`Stored`] names the surface that a rule keeps, whatever its parameters.
 //!
 //! | storage | keeps |
 //! |---|---|
@@ -43,6 +45,7 @@ mod bandlimit;
 mod bbox;
 mod deep;
 mod first;
+mod hit;
 mod kept;
 mod map;
 mod midpoint;
@@ -51,6 +54,7 @@ mod raw;
 mod rows;
 mod rule;
 mod second;
+mod stored;
 mod tags;
 mod tiled;
 mod translucent;
@@ -60,13 +64,15 @@ pub use bandlimit::bandlimit;
 pub use bbox::Bbox;
 pub use deep::{DeepMap, compress};
 pub use first::First;
+pub use hit::Hit;
 pub use kept::{Map, Storage, StorageError};
 pub use map::DepthMap;
 pub use midpoint::{Midpoint, MidpointCell, Same};
 pub use quantise::{quantise, quantum};
 pub use raw::{MapError, Raw};
-pub use rule::DepthRule;
+pub use rule::{DepthRule, Reduction};
 pub use second::Second;
+pub use stored::Stored;
 pub use tags::TagMap;
 pub use tiled::{TILE, Tile, Tiled};
 pub use translucent::{Step, Translucent};

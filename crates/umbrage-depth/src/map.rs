@@ -1,4 +1,4 @@
-use crate::Translucent;
+use crate::{Stored, Translucent};
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::IVec2;
 use std::sync::Arc;
@@ -45,6 +45,12 @@ pub trait DepthMap: Send + Sync {
         None
     }
 
+    /// Which surface the depths belong to.
+    #[inline(always)]
+    fn stored(&self) -> Stored {
+        Stored::First
+    }
+
     /// Bytes held for depths alone, 4 each, as Reeves' Table 2 counts them: without directories and rectangles.
     fn bytes(&self) -> usize;
 }
@@ -76,6 +82,10 @@ macro_rules! forward {
             #[inline(always)]
             fn translucent(&self) -> Option<&dyn Translucent> {
                 (**self).translucent()
+            }
+
+            fn stored(&self) -> Stored {
+                (**self).stored()
             }
 
             fn bytes(&self) -> usize {

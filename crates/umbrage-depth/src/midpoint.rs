@@ -1,4 +1,4 @@
-use crate::DepthRule;
+use crate::{DepthRule, Reduction, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -48,7 +48,7 @@ pub struct MidpointCell {
     object: (u32, bool),
 }
 
-impl DepthRule for Midpoint {
+impl Reduction for Midpoint {
     type Cell = MidpointCell;
     const EMPTY: MidpointCell = MidpointCell { first: f32::INFINITY, second: f32::INFINITY, object: (u32::MAX, true) };
     const PASSES: u32 = 2;
@@ -65,6 +65,12 @@ impl DepthRule for Midpoint {
         } else if key < cell.second && !self.is_first(cell, key, object) {
             cell.second = key;
         }
+    }
+}
+
+impl DepthRule for Midpoint {
+    fn stored(&self) -> Stored {
+        Stored::Midpoint
     }
 
     #[inline(always)]

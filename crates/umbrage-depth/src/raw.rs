@@ -1,4 +1,4 @@
-use crate::{Bbox, DepthMap, Tiled, rows};
+use crate::{Bbox, DepthMap, Stored, Tiled, rows};
 use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use umbrage_plane::{TexelRect, View};
@@ -42,11 +42,19 @@ pub enum MapError {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raw {
     view: View,
+    stored: Stored,
     depths: Vec<f32>,
 }
 
 impl Raw {
-    /// One depth a texel of `view`, row by row, row 0 on top. Values of 1e30 or more, +∞ included, mean *no surface* and become +∞.
+    /// The same depths, said to be those of another surface. A new map's are those of the nearest, a copy's those of the map it
+    /// is made from.
+    #[must_use]
+    pub fn with_stored(self, stored: Stored) -> Self {
+        Self { stored, ..self }
+    }
+
+    /// One depth per texel of `view`, row by row, row 0 on top, those of the nearest surface ([`Raw::with_stored`] says another). Values of 1e30 or more, +∞ included, mean *no surface* and become +∞.
     ///
     /// # Errors
     /// When the number of depths is not width times height, or one of them is NaN or −∞.
@@ -62,12 +70,12 @@ impl Raw {
         for depth in &mut depths {
             *depth = rows::kept(*depth);
         }
-        Ok(Self { view, depths })
+        Ok(Self { view, stored: Stored::First, depths })
     }
 
     /// Every texel of another map.
     pub fn copy_of(map: &impl DepthMap) -> Self {
-        Self { view: *map.view(), depths: rows::copy(map, TexelRect::of_size(map.view().size())) }
+        Self { view: *map.view(), stored: map.stored(), depths: rows::copy(map, TexelRect::of_size(map.view().size())) }
     }
 
     /// The depths, row by row from the top; +∞ where there is no surface.
@@ -81,13 +89,17 @@ impl Raw {
     /// When the function returns NaN or −∞.
     pub fn map_depths(&self, f: impl Fn(IVec2, f32) -> f32) -> Result<Self, MapError> {
         let replaced = self.replaced(f);
-        Self::new(replaced.view, replaced.depths)
+        Ok(Self::new(replaced.view, replaced.depths)?.with_stored(self.stored))
     }
 
     /// [`Raw::map_depths`] with a function that returns depths only.
     pub(crate) fn replaced(&self, f: impl Fn(IVec2, f32) -> f32) -> Self {
         let texels = TexelRect::of_size(self.view.size()).texels();
-        Self { view: self.view, depths: texels.zip(&self.depths).map(|(texel, &depth)| f(texel, depth)).collect() }
+        Self {
+            view: self.view,
+            stored: self.stored,
+            depths: texels.zip(&self.depths).map(|(texel, &depth)| f(texel, depth)).collect(),
+        }
     }
 
     /// The smallest rectangle around all texels that hold a surface; empty when none does (R87-19).
@@ -109,6 +121,10 @@ impl DepthMap for Raw {
     #[inline(always)]
     fn look<S: Simd>(&self, simd: S, _within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
         rows::look(simd, &self.depths, TexelRect::of_size(self.view.size()), x, y)
+    }
+
+    fn stored(&self) -> Stored {
+        self.stored
     }
 
     fn bytes(&self) -> usize {

@@ -1,21 +1,70 @@
-use glam::DVec2;
-use umbrage_plane::{Decode, Facet};
+use crate::{Hit, Stored};
+use glam::{DVec2, IVec2};
+use umbrage_plane::{Affine, Decode, Facet, Facing, View};
 
-/// Which of the surfaces behind a texel is stored (spec X-3).
+/// Makes one cell of all the fragments that meet a texel: what a map keeps while it is drawn (spec X-3).
 ///
-/// A rule is a reduction over the fragments of a texel whose result does not depend on their order, so that
-/// neither threads nor tiling can change a bit. Rules see keys ([`umbrage_plane::Affine`]); keys become depths once, in [`DepthRule::resolve`].
-pub trait DepthRule: Sync {
+/// The result does not depend on the fragments' order, so that neither threads nor tiling can change a bit. Reductions see keys
+/// ([`Affine`]); a [`DepthRule`] makes a depth of the cell in the end, other maps (objects' ids, for one) use the cell as it is.
+pub trait Reduction: Sync {
     /// What is kept per texel while fragments arrive.
     type Cell: Copy + Send;
     /// A texel that no fragment has met.
     const EMPTY: Self::Cell;
-    /// How often all fragments are offered.
+    /// How often all fragments are offered: render passes.
     const PASSES: u32 = 1;
 
-    /// Offers one fragment: its key at the texel's sample position and whether its outside is seen there. A key of NaN changes nothing.
+    /// Offers one fragment in pass `pass`, counted from 0: its key at the texel's sample position and whether its outside is seen there. A key
+    /// of NaN changes nothing.
     fn add(&self, pass: u32, cell: &mut Self::Cell, key: f32, front: bool, facet: &Facet);
+}
+
+/// Which of the surfaces behind a texel is stored: a [`Reduction`] whose cell becomes a depth.
+pub trait DepthRule: Reduction {
+    /// Which surface the depths of this rule belong to; [`Stored::Other`] for a rule that none of the others name.
+    fn stored(&self) -> Stored;
 
     /// The depth to store, at the texel's sample position; +∞ where nothing is.
     fn resolve(&self, cell: Self::Cell, decode: &Decode, at: DVec2) -> f32;
+
+    /// The depth that a map of `view` stores at `texel` if a ray through the texel's sample meets these surfaces, in any order: for maps made by
+    /// one's own ray caster. +∞ where there is nothing to store.
+    ///
+    /// The hits go through the same [`Reduction`] as the rasteriser's fragments, and what is nearer than the near plane is stored at it as there:
+    /// hits at a fragment's own distance store its very bits. Hits whose distance is NaN are ignored. All hits count, those behind the first too;
+    /// ones behind the light (negative ζ in perspective) are the caller's to leave out.
+    ///
+    /// ```
+    /// use glam::{DVec3, IVec2, UVec2};
+    /// use umbrage_depth::{BackFace, DepthRule, First, Hit, Midpoint};
+    /// use umbrage_plane::View;
+    ///
+    /// let lamp = View::perspective(DVec3::Z * 9.0, DVec3::ZERO, DVec3::Y, 1.0, 1.0, 99.0, UVec2::splat(8))?;
+    /// // A ray through a box: its top 4 units from the lamp, its bottom 6.
+    /// let hits = [Hit::back(6.0), Hit::front(4.0)];
+    /// let texel = IVec2::new(3, 5);
+    /// assert_eq!(First.of(&lamp, texel, hits), 4.0);
+    /// assert_eq!(BackFace.of(&lamp, texel, hits), 6.0);
+    /// assert_eq!(Midpoint::default().of(&lamp, texel, hits), 5.0);
+    /// assert_eq!(First.of(&lamp, texel, []), f32::INFINITY);
+    /// # Ok::<(), umbrage_plane::ViewError>(())
+    /// ```
+    fn of<H>(&self, view: &View, texel: IVec2, hits: H) -> f32
+    where
+        H: IntoIterator<Item = Hit, IntoIter: Clone>,
+        Self: Sized,
+    {
+        let hits = hits.into_iter();
+        let mut cell = Self::EMPTY;
+        for pass in 0..Self::PASSES {
+            for hit in hits.clone() {
+                let plane = Affine::constant(view.key(hit.zeta));
+                let facing = if hit.front { Facing::Front } else { Facing::Back };
+                let facet = Facet { plane, facing, triangle: 0, object: hit.object, sheet: hit.sheet };
+                self.add(pass, &mut cell, plane.c as f32, hit.front, &facet);
+            }
+        }
+        let (decode, at) = (view.decode(), view.sampling().position(texel));
+        self.resolve(cell, &decode, at).max(decode.depth(view.key(view.near()) as f32, at))
+    }
 }

@@ -1,4 +1,4 @@
-use crate::DepthRule;
+use crate::{DepthRule, Reduction, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -9,7 +9,7 @@ use umbrage_plane::{Decode, Facet};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Second;
 
-impl DepthRule for Second {
+impl Reduction for Second {
     /// The two smallest keys, in order.
     type Cell = [f32; 2];
     const EMPTY: [f32; 2] = [f32::INFINITY; 2];
@@ -20,6 +20,12 @@ impl DepthRule for Second {
         if facet.sheet {
             insert(cell, key);
         }
+    }
+}
+
+impl DepthRule for Second {
+    fn stored(&self) -> Stored {
+        Stored::Second
     }
 
     #[inline(always)]

@@ -1,4 +1,4 @@
-use crate::{Bbox, DepthMap, Raw, rows};
+use crate::{Bbox, DepthMap, Raw, Stored, rows};
 use fearless_simd::{Simd, f32x16, prelude::*, u32x16};
 use glam::{IVec2, UVec2};
 use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
@@ -59,12 +59,20 @@ impl Tile {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tiled {
     view: View,
+    stored: Stored,
     /// Columns and rows of tiles.
     grid: UVec2,
     tiles: Vec<Option<Tile>>,
 }
 
 impl Tiled {
+    /// The same depths, said to be those of another surface. A new map's are those of the nearest, a copy's those of the map it
+    /// is made from.
+    #[must_use]
+    pub fn with_stored(self, stored: Stored) -> Self {
+        Self { stored, ..self }
+    }
+
     /// From all tiles of a map of `view`, row by row from the top; `None` for those without a surface.
     ///
     /// # Panics
@@ -72,7 +80,7 @@ impl Tiled {
     pub fn from_tiles(view: View, tiles: Vec<Option<Tile>>) -> Self {
         let grid = (view.size() + (TILE - 1)) / TILE;
         assert_eq!(tiles.len(), grid.element_product() as usize, "tiles of a map of {} texels", view.size());
-        Self { view, grid, tiles }
+        Self { view, stored: Stored::First, grid, tiles }
     }
 
     /// The tiles of another map.
@@ -84,7 +92,7 @@ impl Tiled {
             let texel = |i: usize| (origin + UVec2::new(i as u32 % TILE, i as u32 / TILE)).as_ivec2();
             Tile::new(Box::new(std::array::from_fn(|i| map.depth(texel(i)))), size - origin)
         };
-        Self { view: *map.view(), grid, tiles: (0..grid.element_product()).map(tile).collect() }
+        Self { view: *map.view(), stored: map.stored(), grid, tiles: (0..grid.element_product()).map(tile).collect() }
     }
 
     /// Columns and rows of tiles.
@@ -174,6 +182,10 @@ impl DepthMap for Tiled {
             }
         }
         range
+    }
+
+    fn stored(&self) -> Stored {
+        self.stored
     }
 
     fn bytes(&self) -> usize {

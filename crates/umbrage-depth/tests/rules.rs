@@ -1,8 +1,8 @@
 //! The laws that every depth rule obeys, and the published results: V47, V47b, V50 to V54 (W92-1 to W92-4, WM94-1 to WM94-3, T-2).
 
-use glam::{DVec2, DVec3, UVec2};
+use glam::{DVec2, DVec3, IVec2, UVec2};
 use proptest::prelude::*;
-use umbrage_depth::{BackFace, DepthRule, First, Midpoint, Same, Second};
+use umbrage_depth::{BackFace, DepthRule, First, Hit, Midpoint, Same, Second, Stored};
 use umbrage_plane::{Affine, Facet, Facing, Kind, View};
 
 /// One surface over a texel.
@@ -208,7 +208,26 @@ macro_rules! every_rule {
     };
 }
 
+/// Hits go through the same reduction as fragments, and are clamped to the near plane as pass 1 clamps.
+fn takes_hits(name: &str, rule: &impl DepthRule, view: &View, fragments: &[Fragment]) {
+    let hits = fragments.iter().map(|fragment| {
+        let side = if fragment.front { Hit::front(fragment.zeta) } else { Hit::back(fragment.zeta) };
+        let hit = side.of_object(fragment.object);
+        if fragment.sheet { hit.of_sheet() } else { hit }
+    });
+    let nearest = view.decode().depth(view.key(view.near()) as f32, AT);
+    let (found, want) = (rule.of(view, IVec2::new(3, 2), hits), stored(rule, view, fragments).max(nearest));
+    assert_eq!(found.to_bits(), want.to_bits(), "{name}: {found}, want {want} of {fragments:?}");
+}
+
 proptest! {
+    #[test]
+    fn hits_store_what_fragments_store(fragments in fragments()) {
+        for view in [orthographic(), perspective(), perspective().with_kind(Kind::Screen), perspective().with_kind(Kind::Radial)] {
+            every_rule!(takes_hits, &view, &fragments);
+        }
+    }
+
     #[test]
     fn v54_no_rule_depends_on_the_order_of_arrival(fragments in fragments()) {
         for view in [orthographic(), perspective(), perspective().with_kind(Kind::Screen), perspective().with_kind(Kind::Radial)] {
@@ -272,4 +291,24 @@ proptest! {
 fn v54_the_sign_of_zero_does_not_show() {
     let zeros = [front(0.0), front(-0.0), back(0.0), back(-0.0)];
     every_rule!(ignores_order, &orthographic(), &zeros);
+}
+
+#[test]
+fn hits_are_made_of_places_in_the_world() {
+    // 9 units below the lamp, a floor seen from above and a roof seen from inside.
+    for view in [orthographic(), perspective()] {
+        let floor = Hit::at(&view, DVec3::new(0.3, -0.2, 0.0), DVec3::Z);
+        assert!((floor.zeta - 9.0).abs() < 1e-12 && floor.front && !floor.sheet && floor.object == 0);
+        assert!(!Hit::at(&view, DVec3::new(0.3, -0.2, 4.0), DVec3::NEG_Z * 7.0).front);
+        let before = Hit::front(0.5);
+        let nearest = view.near().max(0.5) as f32;
+        assert_eq!(First.of(&view, IVec2::ZERO, [before, floor]), nearest, "stored at the near plane");
+        assert_eq!(First.of(&view, IVec2::ZERO, [Hit::front(f64::NAN), Hit::front(f64::INFINITY)]), INF);
+    }
+}
+
+#[test]
+fn rules_name_the_surface_they_store() {
+    let names = [First.stored(), Second.stored(), BackFace.stored(), Midpoint::default().stored()];
+    assert_eq!(names, [Stored::First, Stored::Second, Stored::BackFace, Stored::Midpoint]);
 }

@@ -39,10 +39,12 @@
 mod bins;
 mod clip;
 mod coverage;
+mod fragments;
 mod setup;
 
 pub use bins::Bins;
 pub use coverage::Coverage;
+pub use fragments::each_fragment;
 
 use glam::Vec3;
 

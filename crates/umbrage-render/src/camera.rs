@@ -1,8 +1,7 @@
 use crate::Soup;
-use crate::pass1::each_fragment;
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
 use umbrage_plane::{Facet, Facing, SurfacePoint, View};
-use umbrage_raster::{Bins, TILE};
+use umbrage_raster::{Bins, TILE, each_fragment};
 
 /// A piece of one surface within one pixel: what is shaded once (R87-8).
 pub(crate) struct Region {

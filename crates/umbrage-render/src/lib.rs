@@ -1,12 +1,13 @@
-//! Pass 1 (depth maps), pass 2 (images) and shading: the one library crate that joins rasteriser and shadow.
+//! Pictures from scenes, and the maps of a scene's lights: the library crate that joins scenes, maps and shadows.
 //!
-//! The reading path: a [`Soup`] is a scene's triangles for one view; [`bake`] makes a light's depth map of it;
+//! The reading path: a [`Soup`] is a scene's triangles for one view; [`bake`](umbrage_bake::bake) makes a light's depth map of it;
 //! [`bind`] puts a filter over the map in the storage that is asked for; [`picture`] draws the camera's image with it.
 //!
 //! ```
+//! use umbrage_bake::bake;
 //! use umbrage_depth::First;
 //! use umbrage_raster::Cull;
-//! use umbrage_render::{Frame, Soup, Storage, bake, bind, picture};
+//! use umbrage_render::{Frame, Soup, Storage, bind, picture};
 //! use umbrage_scene::gallery;
 //! use umbrage_shadow::presets;
 //!
@@ -21,27 +22,19 @@
 //! ```
 
 mod camera;
-mod deep;
+mod exposure;
 mod lights;
-mod moments;
-mod normals;
-mod pass1;
 mod picture;
 mod planar;
 pub mod post;
 mod recipe;
 mod shade;
 mod soup;
-mod tags;
 
-pub use deep::{Deep, bake_deep};
+pub use exposure::{expose, expose_deep};
 pub use lights::{bind_lights, light_maps};
-pub use moments::bake_moments;
-pub use normals::bake_by_normals;
-pub use pass1::{Baked, advised_map_sizes, bake, bake_multi};
 pub use picture::{Frame, NOTHING, Picture, picture};
 pub use planar::{Ground, Planar};
 pub use recipe::{Recipe, RecipeError, bind};
 pub use soup::Soup;
-pub use tags::bake_tags;
 pub use umbrage_depth::{Map, Storage};

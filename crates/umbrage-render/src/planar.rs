@@ -1,6 +1,7 @@
-use crate::{Soup, bake};
+use crate::Soup;
 use glam::{DVec2, DVec3, DVec4, UVec2, Vec3};
 use std::sync::Arc;
+use umbrage_bake::bake;
 use umbrage_depth::{DepthMap, First, Tiled};
 use umbrage_plane::{SurfacePoint, View, ViewError, planar_shadow};
 use umbrage_raster::{Cull, Triangle};

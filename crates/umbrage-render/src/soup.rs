@@ -1,5 +1,6 @@
 use glam::Vec3;
 use std::borrow::Cow;
+use umbrage_bake::Caster;
 use umbrage_plane::View;
 use umbrage_raster::Triangle;
 use umbrage_scene::{Mesh, MeshError, Object, Scene};
@@ -14,8 +15,21 @@ pub struct Soup<'a> {
 struct Piece<'a> {
     object: u32,
     sheet: bool,
+    passes: Vec3,
     first: u32,
     mesh: Cow<'a, Mesh>,
+}
+
+impl Piece<'_> {
+    fn triangle(&self, local: usize) -> Triangle {
+        let corners = self.mesh.triangles[local].map(|vertex| self.mesh.positions[vertex as usize]);
+        Triangle { corners, object: self.object, sheet: self.sheet }
+    }
+
+    fn caster(&self, local: usize) -> Caster {
+        let normals = self.mesh.triangles[local].map(|vertex| self.mesh.normals[vertex as usize]);
+        Caster::from(self.triangle(local)).with_passes(self.passes).with_normals(normals)
+    }
 }
 
 impl<'a> Soup<'a> {
@@ -48,7 +62,7 @@ impl<'a> Soup<'a> {
                 panic!("object {id}, {:?}: {fault}", object.name);
             }
             let count = mesh.triangles.len() as u32;
-            pieces.push(Piece { object: id as u32, sheet: !object.solid, first, mesh });
+            pieces.push(Piece { object: id as u32, sheet: !object.solid, passes: object.passes, first, mesh });
             first += count;
         }
         Self { pieces }
@@ -66,13 +80,18 @@ impl<'a> Soup<'a> {
 
     /// The triangles in order; a triangle's index counts from 0 over all objects.
     pub fn triangles(&self) -> impl Iterator<Item = Triangle> + '_ {
-        self.pieces.iter().flat_map(|piece| {
-            piece.mesh.triangles.iter().map(|triangle| Triangle {
-                corners: triangle.map(|vertex| piece.mesh.positions[vertex as usize]),
-                object: piece.object,
-                sheet: piece.sheet,
-            })
-        })
+        self.pieces.iter().flat_map(|piece| (0..piece.mesh.triangles.len()).map(|local| piece.triangle(local)))
+    }
+
+    /// The same triangles, each with what passes its object and the shading normals of its mesh.
+    pub fn casting(&self) -> impl Iterator<Item = Caster> + '_ {
+        self.pieces.iter().flat_map(|piece| (0..piece.mesh.triangles.len()).map(|local| piece.caster(local)))
+    }
+
+    /// As [`casting`](Self::casting), for who keeps no soup.
+    pub fn into_casting(self) -> impl Iterator<Item = Caster> + 'a {
+        let pieces = self.pieces.into_iter();
+        pieces.flat_map(|piece| (0..piece.mesh.triangles.len()).map(move |local| piece.caster(local)))
     }
 
     /// The smooth piece of surface that a triangle belongs to; unique together with its object.

@@ -1,10 +1,11 @@
 //! Deep maps and exposures: what light is left behind leaves and glass and behind what moves.
 
 use glam::{DVec3, IVec2, UVec2, Vec3};
+use umbrage_bake::{Deep, bake};
 use umbrage_depth::{DeepMap, DepthMap, First, Raw};
 use umbrage_plane::{SurfacePoint, TexelRect, View};
 use umbrage_raster::Cull;
-use umbrage_render::{Deep, Frame, Map, Recipe, Soup, Storage, bake, bake_deep, bake_moments, picture};
+use umbrage_render::{Frame, Map, Recipe, Soup, Storage, expose, expose_deep, picture};
 use umbrage_sample::Key;
 use umbrage_scene::{Light, Material, Mesh, Object, Scene, Shape, gallery};
 use umbrage_shadow::Shadow;
@@ -30,28 +31,11 @@ fn lossless(axis: u32) -> Deep {
 }
 
 #[test]
-fn v56_b06_11_light_is_multiplied_from_surface_to_surface() {
-    let colours = [Vec3::new(0.8, 0.4, 0.2), Vec3::splat(0.5), Vec3::ZERO];
-    let stack =
-        scene(vec![sheet(30.0, -16.0, colours[0]), sheet(20.0, -16.0, colours[1]), sheet(0.0, 0.0, colours[2])]);
-    let map = bake_deep(&light().view, &[&stack], &lossless(2));
-    let eye = map.view().depth(map.view().world_to_eye().transform_point3(DVec3::ZERO));
-    let behind = |texel, height: f32| map.transmittance(texel, eye - height);
-    let (left, right) = (IVec2::new(10, 30), IVec2::new(50, 30));
-    assert_eq!(behind(left, 30.0), Vec3::ONE, "a surface does not shadow itself");
-    assert_eq!(behind(left, 25.0), colours[0]);
-    assert!((behind(left, 10.0) - colours[0] * 0.5).abs().max_element() < 1e-6);
-    assert!((behind(left, -50.0) - colours[0] * 0.5).abs().max_element() < 1e-6);
-    assert_eq!(behind(right, -1.0), Vec3::ZERO, "opaque behind the third");
-    assert_eq!(map.steps(right).len(), 3);
-}
-
-#[test]
 fn a_deep_map_of_opaque_things_is_the_first_depth() {
     let scene = gallery::sphere_plane();
     let view = scene.lights[0].view.with_size(UVec2::new(96, 96)).unwrap();
     let first = bake(&view, Soup::casters(&scene, &view).triangles(), &First, Cull::None).map;
-    let deep = bake_deep(&view, &[&scene], &lossless(1));
+    let deep = expose_deep(&view, &[&scene], &lossless(1));
     for texel in TexelRect::of_size(view.size()).texels() {
         assert_eq!(deep.depth(texel), first.depth(texel), "{texel}");
         assert!(deep.steps(texel).iter().all(|step| step.passes == Vec3::ZERO), "{texel}");
@@ -72,25 +56,16 @@ fn a_deep_map_of_opaque_things_is_the_first_depth() {
 }
 
 #[test]
-fn ext_3_half_a_texel_under_a_sheet_is_half_dark() {
-    // The sheet's edge runs through the middle of column 32.
-    let half = scene(vec![sheet(10.0, 0.25, Vec3::ZERO)]);
-    let map = bake_deep(&light().view, &[&half], &lossless(4));
-    let light_behind = |x| map.transmittance(IVec2::new(x, 20), f32::INFINITY).x;
-    assert_eq!([31, 32, 33].map(light_behind), [1.0, 0.5, 0.0]);
-}
-
-#[test]
 fn ext_2_moments_share_the_light_between_them() {
     let moments: Vec<Scene> = (0..4).map(|i| scene(vec![sheet(10.0, f32::from(i as u8) * 4.0, Vec3::ZERO)])).collect();
     let moments: Vec<&Scene> = moments.iter().collect();
-    let map = bake_deep(&light().view, &moments, &lossless(1));
+    let map = expose_deep(&light().view, &moments, &lossless(1));
     let light_behind = |world: f32| map.transmittance(IVec2::new(((world + 16.0) * 2.0) as i32, 9), 1e9).x;
     assert_eq!([-1.0, 1.0, 5.0, 9.0, 13.0].map(light_behind), [1.0, 0.75, 0.5, 0.25, 0.0]);
     // A single depth a texel sees each moment in its own share of the texels.
     let view = light().view;
     let first = |scene: &Scene| bake(&view, Soup::casters(scene, &view).triangles(), &First, Cull::None).map;
-    let drawn = bake_moments(&view, &moments, 3, first);
+    let drawn = expose(&view, &moments, 3, first);
     let dark = |from: i32, to: i32| {
         let all: Vec<IVec2> = TexelRect::new(IVec2::new(from, 0), IVec2::new(to, 64)).texels().collect();
         all.iter().filter(|texel| drawn.depth(**texel).is_finite()).count() as f64 / all.len() as f64
@@ -98,8 +73,8 @@ fn ext_2_moments_share_the_light_between_them() {
     for (from, to, share) in [(0, 32, 0.0), (32, 40, 0.25), (40, 48, 0.5), (48, 56, 0.75), (56, 64, 1.0)] {
         assert!((dark(from, to) - share).abs() < 0.08, "columns {from} to {to}: {}", dark(from, to));
     }
-    assert_eq!(Raw::from(&drawn), Raw::from(&bake_moments(&view, &moments, 3, first)), "the same again");
-    assert_eq!(bake_moments(&view, &[], 3, first).tile_count(), 0);
+    assert_eq!(Raw::from(&drawn), Raw::from(&expose(&view, &moments, 3, first)), "the same again");
+    assert_eq!(expose(&view, &[], 3, first).tile_count(), 0);
     // A recipe of one surface does the same, whatever its rule.
     let normals: Recipe = "wang-molnar94,stored=normals".parse().unwrap();
     let Map::Tiled(tiles) = normals.bake_moments(&moments, &view) else { panic!("one surface") };
@@ -107,15 +82,15 @@ fn ext_2_moments_share_the_light_between_them() {
         Map::Tiled(tiles) => tiles,
         _ => panic!("one surface"),
     };
-    assert_eq!(tiles, bake_moments(&view, &moments, 0, alone));
+    assert_eq!(tiles, expose(&view, &moments, 0, alone));
 }
 
 #[test]
 fn ext_3_epsilon_is_honoured_by_a_whole_map() {
     let plant = gallery::plant();
     let view = plant.lights[0].view.with_size(UVec2::splat(96)).unwrap();
-    let full = bake_deep(&view, &[&plant], &lossless(4));
-    let kept = bake_deep(&view, &[&plant], &Deep::new(0.02, 4).unwrap());
+    let full = expose_deep(&view, &[&plant], &lossless(4));
+    let kept = expose_deep(&view, &[&plant], &Deep::new(0.02, 4).unwrap());
     assert_eq!(kept.epsilon(), 0.02);
     let mut seen = 0;
     for texel in TexelRect::of_size(view.size()).texels() {
@@ -130,17 +105,6 @@ fn ext_3_epsilon_is_honoured_by_a_whole_map() {
     }
     assert!(seen > 10_000, "{seen} places");
     assert!(kept.bytes() * 4 < full.bytes() * 3, "{} of {}", kept.bytes(), full.bytes());
-}
-
-#[test]
-fn threads_change_no_bit_of_a_deep_map() {
-    let pane = gallery::glass_pane();
-    let view = pane.lights[0].view.with_size(UVec2::splat(80)).unwrap();
-    let with = |threads: usize| -> DeepMap {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| bake_deep(&view, &[&pane], &Deep::default()))
-    };
-    assert_eq!(with(1), with(3));
 }
 
 #[test]
@@ -170,22 +134,6 @@ fn coloured_light_reaches_the_shading_through_the_one_seam() {
 }
 
 #[test]
-fn bad_bounds_are_refused_by_value() {
-    assert_eq!(Deep::new(1.0, 4).unwrap_err().to_string(), "deep map error bound 1 is not within 0..1");
-    assert!(Deep::new(f32::NAN, 4).is_err() && Deep::new(-0.1, 4).is_err());
+fn a_recipe_s_bad_bound_is_refused_by_field() {
     assert_eq!("reeves87,stored=deep,epsilon=1".parse::<Recipe>().unwrap_err().field, "epsilon");
-}
-
-#[test]
-fn depths_that_are_none_are_no_surfaces_of_a_deep_map() {
-    // Along (1, 1, 1), corners that are each within bounds lie beyond them together.
-    let far = 9e29f32;
-    let corners = [Vec3::new(far, far, 0.0), Vec3::new(far, 0.0, far), Vec3::new(0.0, far, far), Vec3::splat(far)];
-    let mesh = Shape::Mesh(Mesh::sheet(corners, 1));
-    let scene = scene(vec![Object::two_sided("far", mesh, Material::matt(Vec3::ONE))]);
-    let view = View::orthographic(DVec3::ZERO, DVec3::ONE, DVec3::Y, 1e30, 0.0, 1e31, UVec2::splat(16)).unwrap();
-    let map = bake_deep(&view, &[&scene], &lossless(1));
-    for texel in TexelRect::of_size(view.size()).texels() {
-        assert!(map.steps(texel).iter().all(|step| step.depth < 1e30), "{texel}");
-    }
 }

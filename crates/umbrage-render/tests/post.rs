@@ -2,18 +2,20 @@
 
 use glam::{DVec3, UVec2, Vec3};
 use std::sync::Arc;
+use umbrage_bake::bake;
 use umbrage_depth::{First, Raw, Tiled};
 use umbrage_plane::{Bias, Kind, Rules, View};
 use umbrage_raster::Cull;
 use umbrage_render::post::{darken, low_pass, shadow_image};
-use umbrage_render::{Frame, Soup, bake, picture};
+use umbrage_render::{Frame, Soup, picture};
 use umbrage_sample::Key;
 use umbrage_scene::{Scene, gallery};
 use umbrage_shadow::williams::{Dither, Lookup};
 use umbrage_shadow::{ShadowMap, Unshadowed, Williams};
 
 const KEY: Key = Key::new(0, 0, 0);
-const PLAIN: Williams = Williams { bias: Bias::World(0.35), lookup: Lookup::Nearest, dither: Dither::OFF };
+const PLAIN: Williams =
+    Williams::default().with_bias(Bias::World(0.35)).with_lookup(Lookup::Nearest).with_dither(Dither::OFF);
 
 fn scene(pixels: u32) -> Scene {
     let mut scene = gallery::sphere_plane();

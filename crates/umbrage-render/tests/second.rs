@@ -1,10 +1,11 @@
 //! The three builders of second surfaces, tags, and texels sampled at several places.
 
 use glam::{DVec3, IVec2, UVec2, Vec3};
+use umbrage_bake::{bake, bake_by_normals, bake_multi, bake_tags};
 use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Midpoint, Same, Second, Tiled};
 use umbrage_plane::{Sampling, SurfacePoint, TexelRect, View};
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Recipe, Soup, bake, bake_by_normals, bake_multi, bake_tags, picture};
+use umbrage_render::{Frame, Recipe, Soup, picture};
 use umbrage_scene::{Material, Mesh, Object, Scene, gallery};
 use umbrage_shadow::Shadow;
 
@@ -47,13 +48,13 @@ fn wm94_1_normals_that_are_flat_are_culling_and_smooth_ones_differ_at_silhouette
     let view_ = view(&scene, 256);
     let soup = Soup::casters(&scene, &view_);
     let culled = bake(&view_, soup.triangles(), &BackFace, Cull::Front).map;
-    assert_eq!(bake_by_normals(&view_, &soup, &BackFace).map, culled);
+    assert_eq!(bake_by_normals(&view_, soup.casting(), &BackFace).map, culled);
     // A sphere's interpolated normals turn away within its last ring of triangles.
     let round = with(vec![Object::solid("ball", Mesh::sphere(Vec3::new(0.0, 0.0, 25.0), 12.0, 96), GREY)]);
     let view_ = view(&round, 256);
     let soup = Soup::casters(&round, &view_);
     let culled = bake(&view_, soup.triangles(), &BackFace, Cull::Front).map;
-    let smooth = bake_by_normals(&view_, &soup, &BackFace).map;
+    let smooth = bake_by_normals(&view_, soup.casting(), &BackFace).map;
     let centre = view_.eye_to_texel(view_.world_to_eye().transform_point3(DVec3::new(0.0, 0.0, 25.0)));
     let radius = TexelRect::of_size(view_.size())
         .texels()
@@ -81,7 +82,7 @@ fn wm94_14_an_open_mesh_passed_off_as_solid_throws_no_shadow_and_a_sheet_does() 
         for map in [
             bake(&view, Soup::casters(&scene, &view).triangles(), &Second, Cull::None).map,
             bake(&view, Soup::casters(&scene, &view).triangles(), &BackFace, Cull::Front).map,
-            bake_by_normals(&view, &Soup::casters(&scene, &view), &BackFace).map,
+            bake_by_normals(&view, Soup::casters(&scene, &view).casting(), &BackFace).map,
         ] {
             assert_eq!(map.tile_count() > 0, surfaces, "solid: {solid}");
         }
@@ -128,7 +129,7 @@ fn w92_3_texels_sampled_at_several_places_keep_the_two_nearest_surfaces_over_the
         assert_eq!(multi.depth(texel), nearest, "{texel}");
     }
     // Midpoints of whole texels lie behind every place of the nearest surface: no acne, whatever the texel.
-    let rule = Midpoint { same: Same::Surface, ..Midpoint::default() };
+    let rule = Midpoint::default().with_same(Same::Surface);
     let middle = bake_multi(&view, soup.triangles(), &rule, Cull::None, axis).unwrap().map;
     let by_depth = bake_multi(&view, soup.triangles(), &Midpoint::default(), Cull::None, axis).unwrap().map;
     let on_surface = |map: &Tiled| {
@@ -226,7 +227,7 @@ fn threads_change_no_bit_of_any_builder() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let multi = bake_multi(&view, soup.triangles(), &Second, Cull::None, 2).unwrap().map;
-            (multi, bake_by_normals(&view, &soup, &BackFace).map, bake_tags(&view, soup.triangles()))
+            (multi, bake_by_normals(&view, soup.casting(), &BackFace).map, bake_tags(&view, soup.triangles()))
         })
     };
     assert!(all(1) == all(3));

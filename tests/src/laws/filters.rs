@@ -23,7 +23,6 @@ pub fn every_filter() -> Vec<Subject> {
     let burley = || Soft::default().with_depth(AnyDepth::from(Cone::default()));
     let light = |radius| Softness::Light { radius, nearest: 2.0 };
     let between = Softness::Between { min: Extent::Share(0.01), max: Extent::World(0.9) };
-    let opacity = Opacity::default().with_far(0.2).with_fade(1e3).with_gamma(0.7);
     let bilinear = |guard| Williams::default().with_lookup(Lookup::Bilinear(guard));
     vec![
         Subject::new("pcf", Pcf::default()),
@@ -55,13 +54,16 @@ pub fn every_filter() -> Vec<Subject> {
         ),
         Subject::new("burley", Soft::default()),
         Subject::new("burley, rescued", burley().with_rescue(true)),
-        Subject::new(
-            "burley, faint far away",
-            burley().with_softness(between).with_opacity(opacity).with_radius_gamma(0.5),
-        ),
+        Subject::new("burley, radii of several units", burley().with_softness(between).with_radius_gamma(0.5)),
         Subject::new("burley, by the light's size", burley().with_softness(light(0.5))),
         Subject::new("burley, on the plane", burley().with_depth(AnyDepth::from(OnPlane::default().with_slack(1.0)))),
         Subject::new("a stranger's variance", Variance::default()),
         Subject::new("a stranger's soft shadow", Pcss { taps: Disc::default(), depth: Cone::default(), light: 4.0 }),
     ]
+}
+
+/// A filter whose shadows thin with the distance of what casts them: no law about how dark they are is for it.
+pub fn thinning() -> Subject {
+    let opacity = Opacity::default().with_near(0.9).with_far(0.2).with_fade(20.0).with_gamma(0.7);
+    Subject::new("burley, faint far away", Soft::default().with_opacity(opacity))
 }

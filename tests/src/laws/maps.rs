@@ -3,10 +3,11 @@
 use super::{Found, KEY, Subject, check, same, size};
 use glam::{DVec3, UVec2, Vec2};
 use std::sync::{Arc, LazyLock};
+use umbrage_bake::bake;
 use umbrage_depth::{DepthMap, First, Map, Storage, Tiled};
 use umbrage_plane::{Footprint, Kind, Receiver, Sampling, SurfacePoint};
 use umbrage_raster::Cull;
-use umbrage_render::{Soup, bake};
+use umbrage_render::Soup;
 use umbrage_scene::gallery;
 
 /// The sphere over its plane as a light sees it, in a map whose sides are no whole number of tiles.

@@ -19,7 +19,8 @@ mod maps;
 mod places;
 
 pub use culling::culling;
-pub use filters::every_filter;
+pub use filters::{every_filter, thinning};
+pub use maps::{baked, receivers};
 
 use umbrage_depth::{DepthMap, Map};
 use umbrage_plane::{Receiver, SurfacePoint};
@@ -119,7 +120,16 @@ pub const EVERY: &[Law] = &[
 /// # Errors
 /// The first law that it breaks, and how.
 pub fn hold(subject: &Subject) -> Found {
-    EVERY.iter().try_for_each(|(law, holds)| holds(subject).map_err(|how| format!("{}: {law}: {how}", subject.name)))
+    hold_but(subject, &[])
+}
+
+/// Holds a filter against every law but some, given by their names.
+///
+/// # Errors
+/// The first law that it breaks, and how.
+pub fn hold_but(subject: &Subject, but: &[&str]) -> Found {
+    let mut laws = EVERY.iter().filter(|(law, _)| !but.contains(law));
+    laws.try_for_each(|(law, holds)| holds(subject).map_err(|how| format!("{}: {law}: {how}", subject.name)))
 }
 
 /// `wrong` unless `good`.

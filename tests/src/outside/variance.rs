@@ -4,12 +4,19 @@ use umbrage_shadow::{Biased, Filter, Met, Probe, Query, Simd};
 
 /// Variance shadows (Donnelly & Lauritzen 2006) with the moments gathered tap by tap: at most the fraction of the region that Chebyshev's
 /// inequality allows is lit.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Variance {
     /// Where moments are gathered.
     pub pattern: Jittered,
     /// Which depth is compared.
     pub depth: Biased,
+}
+
+impl Default for Variance {
+    /// A bias that is the same at every tap: one that varies is variance too.
+    fn default() -> Self {
+        Self { pattern: Jittered::default(), depth: Biased::world(0.3, 0.3) }
+    }
 }
 
 impl Filter for Variance {
@@ -24,8 +31,12 @@ impl Filter for Variance {
             match &seen.met {
                 Met::Settled(dark) => settled += weight * f64::from(*dark),
                 Met::Surfaces(surfaces) => {
-                    for (depth, stops) in surfaces.iter() {
-                        let (behind, weight) = (f64::from(seen.compared - depth), weight * f64::from(stops));
+                    // What one texel holds is known exactly: only texels among themselves vary.
+                    let here = surfaces.iter().fold((0.0, 0.0), |(stopped, sum), (depth, stops)| {
+                        (stopped + stops, sum + stops * (seen.compared - depth))
+                    });
+                    if here.0 > 0.0 {
+                        let (behind, weight) = (f64::from(here.1 / here.0), weight * f64::from(here.0));
                         stopped += weight;
                         first += weight * behind;
                         second += weight * behind * behind;

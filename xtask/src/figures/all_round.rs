@@ -3,11 +3,12 @@
 use super::studio::{error_panel, of, shadow_grid, shadow_panel, truth_panel, value};
 use crate::figure::{Context, Figure, Made, Measure, Panel, Paper, Role};
 use glam::{DVec3, UVec2, Vec3};
+use umbrage_bake::bake;
 use umbrage_depth::{First, Raw, Tiled};
 use umbrage_oracle::{Geometry, RayCast, metrics};
 use umbrage_plane::{Rules, Sectors, View, cube_face, cube_views, sector_views};
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Picture, Soup, bake, picture};
+use umbrage_render::{Frame, Picture, Soup, picture};
 use umbrage_scene::{Light, Material, Mesh, Object, Scene};
 use umbrage_shadow::{Around, Biased, Evaluate, LatLong, Pcf, Shadow};
 

@@ -7,10 +7,11 @@ use crate::figure::{Context, Figure, Made, Measure, Panel, Paper, Role};
 use crate::plot::{Axis, Plot, Series};
 use glam::{DVec3, IVec2, UVec2, Vec3};
 use rayon::prelude::*;
+use umbrage_bake::Deep;
 use umbrage_depth::{DeepMap, DepthMap, Step, compress};
 use umbrage_oracle::{Geometry, Mean, RayCast, metrics};
 use umbrage_plane::{TexelRect, View};
-use umbrage_render::{Deep, Frame, Map, Picture, Recipe, bake_deep};
+use umbrage_render::{Frame, Map, Picture, Recipe, expose_deep};
 use umbrage_scene::{Scene, gallery};
 use umbrage_shadow::Shadow;
 
@@ -162,7 +163,7 @@ fn v56() -> anyhow::Result<Vec<Measure>> {
 
 /// Checks every texel of the map, and of others of the curve's bounds, against one that loses nothing; gives the curve.
 fn stored(cx: &Context, case: &Case, map: &DeepMap, made: &mut Made) -> anyhow::Result<Vec<(f64, f64)>> {
-    let whole = bake_deep(case.view(), &case.moments.iter().collect::<Vec<_>>(), &Deep::new(0.0, case.axis)?);
+    let whole = expose_deep(case.view(), &case.moments.iter().collect::<Vec<_>>(), &Deep::new(0.0, case.axis)?);
     let texels: Vec<IVec2> = TexelRect::of_size(case.view().size()).texels().collect();
     let per_texel = |bytes: usize| bytes as f64 / texels.len() as f64;
     let off = |texel: &IVec2| apart(whole.steps(*texel), map.steps(*texel));

@@ -3,11 +3,12 @@
 use crate::figure::{Context, Figure, Made, Measure, Paper};
 use crate::plot::{Axis, Plot, Series};
 use glam::{DVec3, UVec2, Vec2, Vec3};
+use umbrage_bake::bake;
 use umbrage_depth::{First, Tiled};
 use umbrage_oracle::{metrics, predict};
 use umbrage_plane::{Bias, Footprint, SurfacePoint, View};
 use umbrage_raster::{Cull, Triangle};
-use umbrage_render::{bake, bind};
+use umbrage_render::bind;
 use umbrage_sample::{Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Uniform};
 use umbrage_shadow::{filter, presets};
 

@@ -3,12 +3,13 @@
 use super::studio::{shadow_panel, value};
 use crate::figure::{Context, Figure, Made, Measure, Paper, Table};
 use glam::UVec2;
+use umbrage_bake::bake;
 use umbrage_depth::{DepthMap, First, Tiled};
 use umbrage_io::{Paged, write_shadow_map};
 use umbrage_oracle::metrics;
 use umbrage_plane::View;
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Picture, Soup, bake, picture};
+use umbrage_render::{Frame, Picture, Soup, picture};
 use umbrage_sample::Key;
 use umbrage_scene::{Scene, gallery};
 use umbrage_shadow::{Pcf, Shadow, ShadowMap, presets};

@@ -2,10 +2,11 @@
 
 use super::studio::{Stage, colour_panel, error_panel, of, value};
 use crate::figure::{Context, Figure, Made, Measure, Panel, Paper, Role};
+use umbrage_bake::bake;
 use umbrage_depth::{DepthMap, First, Raw};
 use umbrage_oracle::metrics;
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Picture, Soup, bake};
+use umbrage_render::{Frame, Picture, Soup};
 use umbrage_scene::gallery;
 
 pub const F11: Figure = Figure {

@@ -4,12 +4,13 @@ use crate::figure::{Context, Made, Panel, Role};
 use glam::{DVec2, UVec2, Vec3};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock};
+use umbrage_bake::bake;
 use umbrage_depth::{First, Raw, Tiled, quantise};
 use umbrage_oracle::metrics::{self, Grid};
 use umbrage_oracle::{AreaLight, Diagnostic, Geometry, Plan, RayCast, Truth, diagnose, heat};
 use umbrage_plane::{Kind, Sampling, SurfacePoint, View};
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Map, NOTHING, Picture, Recipe, Soup, bake, bind, bind_lights, light_maps, picture};
+use umbrage_render::{Frame, Map, NOTHING, Picture, Recipe, Soup, bind, bind_lights, light_maps, picture};
 use umbrage_scene::{Light, Scene};
 use umbrage_shadow::{Filter, Shadow, Unshadowed};
 

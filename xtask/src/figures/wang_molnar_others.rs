@@ -5,10 +5,11 @@ use super::studio::{Set, acne, error_panel, lit, of, shadow_grid, shadow_panel, 
 use crate::figure::{Context, Figure, Made, Measure, Panel, Paper, Role, Table};
 use crate::plot::{Axis, Plot, Series};
 use glam::{DVec3, UVec2, Vec3};
+use umbrage_bake::bake_tags;
 use umbrage_depth::{TagMap, Tiled};
 use umbrage_oracle::{metrics, predict};
 use umbrage_plane::{SurfacePoint, TexelRect, View, mix32};
-use umbrage_render::{Frame, Picture, Recipe, Soup, bake_tags};
+use umbrage_render::{Frame, Picture, Recipe, Soup};
 use umbrage_sample::Key;
 use umbrage_scene::{Light, Material, Mesh, Object, Scene, Shape, gallery};
 use umbrage_shadow::Tags;

@@ -4,10 +4,10 @@ use super::slice::{self, Slice, disc, rectangle, stored, turned};
 use crate::diagram::{Diagram, Ink, Mark};
 use crate::figure::{Context, Figure, Made, Measure, Paper, Table};
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
+use umbrage_bake::bake;
 use umbrage_depth::{DepthMap, First, Second};
 use umbrage_plane::{DepthPlane, Kind, Receiver, SurfacePoint, TexelRect, View};
 use umbrage_raster::{Bins, Cull, Triangle};
-use umbrage_render::bake;
 use umbrage_sample::Key;
 
 pub const F8: Figure = Figure {

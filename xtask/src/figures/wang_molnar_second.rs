@@ -6,11 +6,12 @@ use crate::diagram::{Diagram, Ink, Mark};
 use crate::figure::{Context, Figure, Made, Measure, Panel, Paper, Role, Table};
 use crate::plot::{Axis, Plot, Series};
 use glam::{DVec2, DVec3, UVec2, Vec3};
-use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Raw, Second, Tiled};
+use umbrage_bake::bake;
+use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Raw, Reduction, Second, Stored, Tiled};
 use umbrage_oracle::metrics;
 use umbrage_plane::{Decode, Facet, SurfacePoint};
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, NOTHING, Picture, Soup, bake, bind};
+use umbrage_render::{Frame, NOTHING, Picture, Soup, bind};
 use umbrage_scene::{Light, Material, Mesh, Object, Scene, gallery};
 use umbrage_shadow::{Conditional, presets};
 
@@ -158,7 +159,7 @@ pub const F6: Figure = Figure {
 /// The third surface of a texel, for these histograms only.
 struct Third;
 
-impl DepthRule for Third {
+impl Reduction for Third {
     type Cell = [f32; 3];
     const EMPTY: [f32; 3] = [f32::INFINITY; 3];
     fn add(&self, _pass: u32, cell: &mut [f32; 3], key: f32, _front: bool, _facet: &Facet) {
@@ -168,6 +169,12 @@ impl DepthRule for Third {
                 std::mem::swap(kept, &mut key);
             }
         }
+    }
+}
+
+impl DepthRule for Third {
+    fn stored(&self) -> Stored {
+        Stored::Other
     }
     fn resolve(&self, cell: [f32; 3], decode: &Decode, at: DVec2) -> f32 {
         decode.depth(cell[2], at)

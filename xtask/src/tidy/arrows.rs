@@ -38,6 +38,12 @@ const RULES: &[Rule] = &[
         tests: PROPERTIES,
     },
     Rule {
+        package: "umbrage-bake",
+        arrows: &["umbrage-raster", "umbrage-depth"],
+        outside: &["glam", "rayon"],
+        tests: PROPERTIES,
+    },
+    Rule {
         package: "umbrage-shadow",
         arrows: &["umbrage-plane", "umbrage-sample", "umbrage-depth"],
         outside: &["fearless_simd", "glam", "thiserror"],
@@ -51,7 +57,7 @@ const RULES: &[Rule] = &[
     },
     Rule {
         package: "umbrage-render",
-        arrows: &["umbrage-scene", "umbrage-raster", "umbrage-shadow"],
+        arrows: &["umbrage-scene", "umbrage-bake", "umbrage-shadow"],
         outside: &["fearless_simd", "glam", "rayon", "thiserror"],
         tests: PROPERTIES,
     },

@@ -49,7 +49,17 @@ impl WangMolnar {
     pub fn bind(self, map: Map) -> Box<dyn Shadow> {
         let Conditional { res_factor, min_size, plane, min_cos, when, dark_backs, .. } = self.filter;
         if self.tent {
-            over(Conditional { pattern: Tent, res_factor, min_size, plane, min_cos, when, dark_backs }, map)
+            over(
+                Conditional::default()
+                    .with_pattern(Tent)
+                    .with_res_factor(res_factor)
+                    .with_min_size(min_size)
+                    .with_plane(plane)
+                    .with_min_cos(min_cos)
+                    .with_when(when)
+                    .with_dark_backs(dark_backs),
+                map,
+            )
         } else {
             over(self.filter, map)
         }

@@ -31,12 +31,12 @@ impl Depth {
     }
 
     pub fn plane(&self) -> OnPlane {
-        OnPlane { bias: self.biased.low, slack: self.slack, reach: self.reach }
+        OnPlane::default().with_bias(self.biased.low).with_slack(self.slack).with_reach(self.reach)
     }
 
     pub fn cone(&self) -> Cone {
         let base = if let Bias::World(base) = self.biased.low { base } else { 0.0 };
-        Cone { base, slope: self.slope, radius: self.radius }
+        Cone::default().with_base(base).with_slope(self.slope).with_radius(self.radius)
     }
 
     pub fn set(&mut self, field: &str, value: &str) -> Set {
@@ -64,7 +64,7 @@ impl Depth {
 
     /// What only all fields together can show.
     pub fn check(&self) -> Result<(), RecipeError> {
-        let Biased { low, high, spread } = self.biased;
+        let Biased { low, high, spread, .. } = self.biased;
         if self.choice != Choice::Constant && low != high {
             return Err(RecipeError::value("bias", &format!("{low:?} to {high:?}"), "one bias, unless depth=constant"));
         }

@@ -133,7 +133,7 @@ impl FromStr for Recipe {
             "burley" => (Rule::First, Method::Burley(Burley::cone())),
             "fernando" => (Rule::First, Method::Burley(Burley::fernando())),
             "ordinary" => {
-                let ordinary = Ordinary { pattern: EveryTexel, bias: Bias::ZERO, res_factor: 1.0 };
+                let ordinary = Ordinary::default().with_pattern(EveryTexel).with_bias(Bias::ZERO).with_res_factor(1.0);
                 (Rule::First, Method::Ordinary(ordinary))
             }
             _ => return Err(RecipeError::value("recipe", name, PRESETS)),
@@ -235,14 +235,19 @@ mod tests {
     fn r87_12_every_field_is_read() {
         let all = "reeves87,min-samples=32,samples=64,jitter=0.5,hard-cap=on,res-factor=2,min-size=1,bias=0.2..0.3t,spread=ramp";
         let reeves = reeves(all);
-        let pattern = Jittered { num_samples: 64, min_samples: 32, jitter: 0.5, hard_cap: true };
-        let depth = Biased { low: Bias::Texels(0.2), high: Bias::Texels(0.3), spread: Spread::Ramp };
-        assert_eq!(reeves.pcf, Pcf { pattern, depth: Biased::default(), res_factor: 2.0, min_size: 1.0, cull: true });
+        let pattern =
+            Jittered::default().with_num_samples(64).with_min_samples(32).with_jitter(0.5).with_hard_cap(true);
+        let depth =
+            Biased::default().with_low(Bias::Texels(0.2)).with_high(Bias::Texels(0.3)).with_spread(Spread::Ramp);
+        assert_eq!(
+            reeves.pcf,
+            Pcf::default().with_pattern(pattern).with_depth(Biased::default()).with_res_factor(2.0).with_min_size(1.0)
+        );
         assert_eq!(reeves.depth, Depth::new(Choice::Constant, depth));
         let all = "williams78,bias=3m,guard=2,dither=1,dither-law=uniforms,dither-depth=0.5";
-        let dither = Dither { amplitude: 1.0, law: DitherLaw::ThreeUniforms, depth: 0.5 };
+        let dither = Dither::default().with_amplitude(1.0).with_law(DitherLaw::ThreeUniforms).with_depth(0.5);
         let lookup = Lookup::Bilinear(Guard::Steps(2.0));
-        let williams = Williams { bias: Bias::Map(3.0), lookup, dither };
+        let williams = Williams::default().with_bias(Bias::Map(3.0)).with_lookup(lookup).with_dither(dither);
         assert_eq!(all.parse::<Recipe>().unwrap().method, Method::Williams(williams));
         for (name, pattern) in reeves::PATTERNS {
             assert_eq!(self::reeves(&format!("reeves87,pattern={name}")).pattern, *pattern);
@@ -306,7 +311,7 @@ mod tests {
         let between = Softness::Between { min: Extent::World(1.0), max: Extent::Share(0.02) };
         assert_eq!((found.softness(), soft.radius_gamma, soft.rescue), (between, 2.0, true));
         assert_eq!((soft.search.num_samples, soft.blur.num_samples, soft.blur.rotate), (16, 64, false));
-        assert_eq!(soft.opacity, Opacity { near: 0.9, far: 0.2, fade: 30.0, gamma: 0.5 });
+        assert_eq!(soft.opacity, Opacity::default().with_near(0.9).with_far(0.2).with_fade(30.0).with_gamma(0.5));
         assert_eq!((found.depth.cone().base, found.depth.cone().radius), (0.1, Radius::Nominal));
         let light: Recipe = "burley,light=2,nearest=5,depth=plane".parse().unwrap();
         let Method::Burley(found) = light.method else { panic!("burley") };

@@ -51,7 +51,7 @@ pub const PATTERNS: &[(&str, PatternName)] = &[
 impl Reeves {
     pub fn new(pcf: Pcf) -> Self {
         let depth = Depth::new(Choice::Constant, pcf.depth);
-        let pcf = Pcf { depth: Biased::default(), ..pcf };
+        let pcf = pcf.with_depth(Biased::default());
         Self { pattern: PatternName::Jittered, depth, integer_first: false, unit: 1.0, pcf }
     }
 
@@ -96,7 +96,14 @@ impl Reeves {
     pub fn bind(self, map: Map) -> Box<dyn Shadow> {
         let Pcf { pattern, res_factor, min_size, .. } = self.pcf;
         if self.integer_first {
-            return over(IntegerFirst { pattern, res_factor, min_size, unit: self.unit }, map);
+            return over(
+                IntegerFirst::default()
+                    .with_pattern(pattern)
+                    .with_res_factor(res_factor)
+                    .with_min_size(min_size)
+                    .with_unit(self.unit),
+                map,
+            );
         }
         match self.depth.choice {
             Choice::Constant => self.with_depth(self.depth.biased, map),
@@ -109,15 +116,15 @@ impl Reeves {
         let num_samples = self.pcf.pattern.num_samples;
         match self.pattern {
             PatternName::Jittered => self.with(self.pcf.pattern, depth, map),
-            PatternName::Uniform => self.with(Uniform { num_samples }, depth, map),
-            PatternName::Gaussian => self.with(Gaussian { num_samples }, depth, map),
+            PatternName::Uniform => self.with(Uniform::default().with_num_samples(num_samples), depth, map),
+            PatternName::Gaussian => self.with(Gaussian::default().with_num_samples(num_samples), depth, map),
             PatternName::Inside => self.with(InsideQuadReject(self.pcf.pattern), depth, map),
             PatternName::Warp => self.with(InsideQuadWarp(self.pcf.pattern), depth, map),
             PatternName::Every => self.with(EveryTexel, depth, map),
             PatternName::Tent => self.with(Tent, depth, map),
             PatternName::Centre => self.with(Centre, depth, map),
             PatternName::Disc => {
-                let disc = Disc { num_samples, density: Density::Uniform, ..Disc::default() };
+                let disc = Disc::default().with_num_samples(num_samples).with_density(Density::Uniform);
                 self.with(disc, depth, map)
             }
         }
@@ -125,6 +132,14 @@ impl Reeves {
 
     fn with<P: Pattern + 'static, D: ReceiverDepth + 'static>(self, pattern: P, depth: D, map: Map) -> Box<dyn Shadow> {
         let Pcf { res_factor, min_size, cull, .. } = self.pcf;
-        over(Pcf { pattern, depth, res_factor, min_size, cull }, map)
+        over(
+            Pcf::default()
+                .with_pattern(pattern)
+                .with_depth(depth)
+                .with_res_factor(res_factor)
+                .with_min_size(min_size)
+                .with_cull(cull),
+            map,
+        )
     }
 }

@@ -6,7 +6,7 @@ use super::{RecipeError, Set, over};
 use umbrage_depth::Map;
 use umbrage_plane::Bias;
 use umbrage_sample::{Density, Disc};
-use umbrage_shadow::{Biased, Extent, Falloff, Opacity, ReceiverDepth, Shadow, Soft, Softness, presets};
+use umbrage_shadow::{Biased, Extent, Falloff, ReceiverDepth, Shadow, Soft, Softness, presets};
 
 pub const FIELDS: &str = "stored, ratio, merge, same, epsilon, sub-samples, min, max, light, nearest, search, blur, rotate, half-offset, rescue, falloff, shape, opacity, opacity-shape, fade, bias, spread, depth, slope, radius, slack or reach";
 
@@ -30,9 +30,16 @@ impl Burley {
 
     pub fn fernando() -> Self {
         // One texel: what a constant bias is set to where nothing is known of the scene.
-        let Soft { softness, search, blur, falloff, radius_gamma, opacity, rescue, depth } =
+        let Soft { softness, search, blur, falloff, radius_gamma, opacity, rescue, depth, .. } =
             presets::fernando(Bias::Texels(1.0));
-        let soft = Soft { softness, search, blur, falloff, radius_gamma, opacity, rescue, ..presets::burley() };
+        let soft = presets::burley()
+            .with_softness(softness)
+            .with_search(search)
+            .with_blur(blur)
+            .with_falloff(falloff)
+            .with_radius_gamma(radius_gamma)
+            .with_opacity(opacity)
+            .with_rescue(rescue);
         Self::new(Depth::new(Choice::Constant, depth), soft)
     }
 
@@ -80,7 +87,7 @@ impl Burley {
                     value.split_once("..").and_then(|(near, far)| share(field, near).ok().zip(share(field, far).ok()));
                 let (near, far) =
                     ends.ok_or_else(|| RecipeError::value(field, value, "two numbers a..b from 0 to 1"))?;
-                soft.opacity = Opacity { near, far, ..soft.opacity };
+                soft.opacity = soft.opacity.with_near(near).with_far(far);
             }
             _ => return self.depth.set(field, value),
         }
@@ -121,7 +128,18 @@ impl Burley {
     fn with_depth<D: ReceiverDepth + 'static>(self, depth: D, map: Map) -> Box<dyn Shadow> {
         let Soft { search, blur, falloff, radius_gamma, opacity, rescue, .. } = self.soft;
         let softness = self.softness();
-        over(Soft { softness, search, blur, falloff, depth, radius_gamma, opacity, rescue }, map)
+        over(
+            Soft::default()
+                .with_softness(softness)
+                .with_search(search)
+                .with_blur(blur)
+                .with_falloff(falloff)
+                .with_depth(depth)
+                .with_radius_gamma(radius_gamma)
+                .with_opacity(opacity)
+                .with_rescue(rescue),
+            map,
+        )
     }
 }
 

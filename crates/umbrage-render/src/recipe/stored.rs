@@ -2,8 +2,9 @@
 
 use super::values::{count, number, one_of, positive, share};
 use super::{RecipeError, Set};
-use crate::{Deep, Soup, bake, bake_by_normals, bake_deep, bake_moments, bake_multi};
+use crate::{Soup, expose, expose_deep};
 use std::sync::Arc;
+use umbrage_bake::{Deep, bake, bake_by_normals, bake_multi};
 use umbrage_depth::{BackFace, DepthRule, First, Map, Midpoint, Same, Second, Tiled};
 use umbrage_plane::View;
 use umbrage_raster::Cull;
@@ -77,11 +78,11 @@ impl Stored {
     /// `moments` are the scene at evenly spread times: deep maps hold their mean, and of rules that keep one surface each texel sees one of them.
     pub fn bake(&self, moments: &[&Scene], view: &View) -> Map {
         if self.rule == Rule::Deep {
-            return bake_deep(view, moments, &self.deep).into();
+            return expose_deep(view, moments, &self.deep).into();
         }
         match moments {
             [scene] => self.flat(scene, view).into(),
-            _ => bake_moments(view, moments, 0, |scene| self.flat(scene, view)).into(),
+            _ => expose(view, moments, 0, |scene| self.flat(scene, view)).into(),
         }
     }
 
@@ -93,7 +94,7 @@ impl Stored {
             Rule::Second => self.sampled(&soup, view, &Second, Cull::None),
             Rule::BackFace => self.sampled(&soup, view, &BackFace, Cull::Front),
             Rule::Midpoint => self.sampled(&soup, view, &self.midpoint, Cull::None),
-            Rule::Normals => bake_by_normals(view, &soup, &BackFace).map,
+            Rule::Normals => bake_by_normals(view, soup.casting(), &BackFace).map,
         }
     }
 

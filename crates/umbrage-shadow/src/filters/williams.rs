@@ -11,7 +11,7 @@ use crate::{Filter, Probe, Query};
 use fearless_simd::Simd;
 use glam::{DMat4, DVec3, DVec4, IVec2, Vec2};
 use umbrage_depth::DepthMap;
-use umbrage_plane::{Bias, Kind, Receiver, View};
+use umbrage_plane::{Bias, Kind, Receiver, View, Where};
 use umbrage_sample::Key;
 
 /// How the light's depth at a point is taken from the texels around it.
@@ -133,8 +133,7 @@ impl Filter for Williams {
             compared += Dither::draw(self.dither.law, key, 2) * self.dither.depth;
         }
         match self.lookup {
-            Lookup::Nearest => query.texel(at.floor().as_ivec2()).dark(compared),
-            Lookup::Bilinear(guard) => {
+            Lookup::Bilinear(guard) if view.locate(at) != Where::Outside => {
                 if compared > bilinear(query.map(), at, guard, receiver) {
                     // What the four texels stop in all: everything, unless the map is deep.
                     let (texels, fraction) = four(view, at);
@@ -144,6 +143,8 @@ impl Filter for Williams {
                     0.0
                 }
             }
+            // Outside the map there is nothing to interpolate, only what a neighbour may store there.
+            Lookup::Nearest | Lookup::Bilinear(_) => query.texel(at.floor().as_ivec2()).dark(compared),
         }
     }
 }

@@ -1,32 +1,25 @@
-//! Pass 1 from triangles to map: what it stores, for every rule, sampling, size and number of threads.
+//! One depth per texel.
 
+use crate::shapes::{ball, cuboid};
 use glam::{DVec3, IVec2, UVec2, Vec3};
-use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Midpoint, Raw, Second, Tiled};
+use umbrage_bake::bake;
+use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Midpoint, Raw, Second, Stored, Tiled};
 use umbrage_plane::{Facing, Kind, Sampling, SurfacePoint, TexelRect, View};
 use umbrage_raster::{Bins, Cull, Triangle};
-use umbrage_render::{Soup, bake};
-use umbrage_scene::{Mesh, Object, Scene, gallery};
 
-/// A scene of solids and a sheet, and triangles of it through the near plane.
-fn triangles() -> Vec<Triangle> {
-    let mut all: Vec<Triangle> = Vec::new();
-    let meshes = [
-        (Mesh::sphere(Vec3::new(0.0, 0.0, -20.0), 5.0, 24), false),
-        (Mesh::cuboid(Vec3::new(-9.0, -9.0, -40.0), Vec3::new(9.0, -4.0, -12.0)), false),
-        (Mesh::cuboid(Vec3::new(1.0, 1.0, -3.0), Vec3::new(1.5, 2.5, 1.0)), false),
-        (Mesh::cuboid(Vec3::new(-30.0, -30.0, -50.0), Vec3::new(30.0, 30.0, -48.0)), true),
+/// Solids and a sheet, some of them through the near plane.
+pub fn triangles() -> Vec<Triangle> {
+    let ball = ball(Vec3::new(0.0, 0.0, -20.0), 5.0, 12, 0).into_iter().map(|(triangle, _)| triangle);
+    let boxes = [
+        (Vec3::new(-9.0, -9.0, -40.0), Vec3::new(9.0, -4.0, -12.0), false),
+        (Vec3::new(1.0, 1.0, -3.0), Vec3::new(1.5, 2.5, 1.0), false),
+        (Vec3::new(-30.0, -30.0, -50.0), Vec3::new(30.0, 30.0, -48.0), true),
     ];
-    for (object, (mesh, sheet)) in meshes.into_iter().enumerate() {
-        all.extend(mesh.triangles.iter().map(|triangle| Triangle {
-            corners: triangle.map(|vertex| mesh.positions[vertex as usize]),
-            object: object as u32,
-            sheet,
-        }));
-    }
-    all
+    let boxes = boxes.iter().zip(1..).flat_map(|(&(min, max, sheet), object)| cuboid(min, max, object, sheet));
+    ball.chain(boxes).collect()
 }
 
-fn views() -> Vec<View> {
+pub fn views() -> Vec<View> {
     let sizes = [UVec2::new(1, 1), UVec2::new(1, 37), UVec2::new(67, 1), UVec2::new(101, 53), UVec2::splat(64)];
     sizes
         .into_iter()
@@ -79,7 +72,7 @@ fn law<R: DepthRule>(name: &str, rule: &R, cull: Cull) {
         for threads in [1, 2, 7] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let baked = pool.install(|| bake(&view, triangles.iter().copied(), rule, cull));
-            assert!(Raw::from(&baked.map) == expected, "{name}, {:?}, {threads} threads", view.size());
+            assert!(Raw::from(&*baked.map) == expected, "{name}, {:?}, {threads} threads", view.size());
             assert!(ranges_hold(&baked.map), "{name}, {:?}", view.size());
         }
     }
@@ -109,12 +102,7 @@ fn x2_x3_tiles_and_threads_store_what_one_texel_at_a_time_stores() {
 #[test]
 fn a_baked_texel_is_the_receiver_s_own_plane_to_two_ulp() {
     // A floor alone: what is stored at a texel is what a receiver's tangent plane says there (the virtual sample).
-    let floor = Mesh::cuboid(Vec3::new(-5000.0, -30.0, -9000.0), Vec3::new(5000.0, -10.0, -4.0));
-    let triangles: Vec<Triangle> = floor
-        .triangles
-        .iter()
-        .map(|t| Triangle { corners: t.map(|v| floor.positions[v as usize]), object: 0, sheet: false })
-        .collect();
+    let triangles = cuboid(Vec3::new(-5000.0, -30.0, -9000.0), Vec3::new(5000.0, -10.0, -4.0), 0, false);
     for sampling in [Sampling::Centre, Sampling::Jittered { seed: 3 }] {
         for kind in [Kind::Axial, Kind::Screen, Kind::Radial] {
             let size = UVec2::new(96, 64);
@@ -141,12 +129,7 @@ fn at_the_middle<R: DepthRule>(view: &View, triangles: &[Triangle], rule: &R) ->
 #[test]
 fn c10_a_solid_before_the_near_plane_keeps_its_shadow_under_every_rule() {
     // A box wholly between the light and the near plane, and no receiver in pass 1 (T-1).
-    let mesh = Mesh::cuboid(Vec3::new(-0.4, -0.4, -0.8), Vec3::new(0.4, 0.4, -0.5));
-    let triangles: Vec<Triangle> = mesh
-        .triangles
-        .iter()
-        .map(|t| Triangle { corners: t.map(|v| mesh.positions[v as usize]), object: 0, sheet: false })
-        .collect();
+    let triangles = cuboid(Vec3::new(-0.4, -0.4, -0.8), Vec3::new(0.4, 0.4, -0.5), 0, false);
     let view = View::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, 1.0, 50.0, UVec2::splat(33)).unwrap();
     let kept = (1.0, 12);
     assert_eq!(at_the_middle(&view, &triangles, &First), kept);
@@ -156,25 +139,12 @@ fn c10_a_solid_before_the_near_plane_keeps_its_shadow_under_every_rule() {
 }
 
 #[test]
-fn r87_5_only_casters_are_drawn_and_ids_and_sheets_reach_the_facets() {
-    let mut scene: Scene = gallery::sphere_plane();
-    scene.objects[0] = Object { solid: false, ..scene.objects[0].clone() };
-    scene.objects[1].casts = false;
-    let view = scene.lights[0].view;
-    let drawn: Vec<Triangle> = Soup::casters(&scene, &view).triangles().collect();
-    assert!(!drawn.is_empty() && drawn.iter().all(|triangle| triangle.object == 0 && triangle.sheet));
-    assert!(Soup::all(&scene, &view).triangles().any(|triangle| triangle.object == 1 && !triangle.sheet));
-}
-
-#[test]
-fn r87_21_a_map_of_16384_keeps_only_the_tiles_that_something_touched() {
-    let scene = gallery::sphere_plane();
-    let view = scene.lights[0].view.with_size(UVec2::splat(16_384)).unwrap();
-    let mut sphere = scene;
-    sphere.objects[1].casts = false;
-    let map = bake(&view, Soup::casters(&sphere, &view).triangles(), &First, Cull::None).map;
-    let share = map.bytes() as f64 / (16_384.0 * 16_384.0 * 4.0);
-    assert!(share > 0.01 && share < 0.1, "{share}");
-    let middle = view.receiver(&SurfacePoint::at(Vec3::new(0.0, 0.0, 25.0), Vec3::Z)).unwrap();
-    assert!(map.depth(middle.footprint.centre.as_ivec2()) < middle.depth);
+fn a_baked_map_says_which_surface_it_stores() {
+    let view = views()[0];
+    let stored = |rule: &dyn Fn(Cull) -> Stored| [Cull::None, Cull::Front].map(rule);
+    let of = |name: Stored| [name; 2];
+    assert_eq!(stored(&|cull| bake(&view, triangles(), &First, cull).map.stored()), [Stored::First, Stored::BackFace]);
+    assert_eq!(stored(&|cull| bake(&view, triangles(), &Second, cull).map.stored()), of(Stored::Second));
+    assert_eq!(stored(&|cull| bake(&view, triangles(), &BackFace, cull).map.stored()), of(Stored::BackFace));
+    assert_eq!(stored(&|cull| bake(&view, triangles(), &Midpoint::default(), cull).map.stored()), of(Stored::Midpoint));
 }

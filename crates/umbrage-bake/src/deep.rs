@@ -1,11 +1,10 @@
-use crate::Soup;
-use crate::pass1::each_fragment;
+use crate::Caster;
 use glam::{DVec3, UVec2, Vec3};
 use rayon::prelude::*;
+use std::cmp::Ordering;
 use umbrage_depth::{DeepMap, MapError, Step, compress};
-use umbrage_plane::{TexelRect, View};
-use umbrage_raster::{Bins, Cull, TILE};
-use umbrage_scene::Scene;
+use umbrage_plane::{Facet, TexelRect, View};
+use umbrage_raster::{Bins, Cull, TILE, each_fragment};
 
 /// How a deep map is made (B06-11, EXT-2, EXT-3).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,13 +24,17 @@ impl Deep {
         if valid { Ok(Self { epsilon, axis: 1 << axis.clamp(1, 8).ilog2() }) } else { Err(MapError::Epsilon(epsilon)) }
     }
 
-    /// The same with another bound.
-    pub(crate) fn with_epsilon(self, epsilon: f32) -> Result<Self, MapError> {
+    /// The same with another bound on the error of the stored transmittance.
+    ///
+    /// # Errors
+    /// For an `epsilon` outside 0..1.
+    pub fn with_epsilon(self, epsilon: f32) -> Result<Self, MapError> {
         Self::new(epsilon, self.axis)
     }
 
-    /// The same with other samples.
-    pub(crate) fn with_axis(self, axis: u32) -> Self {
+    /// The same with `axis` × `axis` samples a texel, as in [`Deep::new`].
+    #[must_use]
+    pub fn with_axis(self, axis: u32) -> Self {
         Self { axis: 1 << axis.clamp(1, 8).ilog2(), ..self }
     }
 }
@@ -50,30 +53,31 @@ struct Fragment {
     cell: u16,
     key: f32,
     object: u32,
+    triangle: u32,
+}
+
+/// The triangles of one moment, and what passes each of them.
+struct Moment {
+    bins: Bins,
+    passes: Vec<Vec3>,
 }
 
 /// Pass 1 of deep maps: a texel's transmittance is the mean over its samples and over the moments of an exposure of what all surfaces
-/// before a depth let through together ([`Object::passes`](umbrage_scene::Object::passes); B06-11, EXT-2, EXT-3).
+/// before a depth let through together ([`Caster::passes`]; B06-11, EXT-2, EXT-3).
 ///
-/// `moments` are the scene at evenly spread times, one of them for a scene at rest. What is nearer than the near plane stands at it (C-10). The result
+/// `moments` are the triangles at evenly spread times, one of them for what is at rest; none gives an empty map. What is nearer than the near plane stands at it (C-10). The result
 /// does not depend on the number of threads. Maps too large for the samples, which are one grid of at most 32,768 a side, get as many as fit.
-///
-/// # Panics
-/// As [`Soup::casters`].
-pub fn bake_deep(view: &View, moments: &[&Scene], deep: &Deep) -> DeepMap {
+pub fn bake_deep<M>(view: &View, moments: impl IntoIterator<Item = M>, deep: &Deep) -> DeepMap
+where
+    M: IntoIterator<Item: Into<Caster>>,
+{
     let fitting = 32_768 / view.size().max_element();
     let axis = deep.axis.min(1 << fitting.max(1).ilog2());
     let fine = view.with_size(view.size() * axis).expect("as many samples as fit");
-    let bins: Vec<Bins> = moments
-        .iter()
-        .map(|scene| {
-            let soup = Soup::casters(scene, view);
-            Bins::new(&fine, TexelRect::of_size(fine.size()), Cull::None, soup.triangles())
-        })
-        .collect();
+    let moments: Vec<Moment> = moments.into_iter().map(|casters| Moment::new(&fine, casters)).collect();
     let size = fine.size();
     let grid = size.map(|side| side.div_ceil(TILE));
-    let gather = Gather { fine: &fine, moments, bins: &bins, axis, epsilon: deep.epsilon };
+    let gather = Gather { fine: &fine, moments: &moments, axis, epsilon: deep.epsilon };
     let tiles: Vec<Vec<Vec<Step>>> = (0..grid.x * grid.y)
         .into_par_iter()
         .map(|index| gather.tile(UVec2::new(index % grid.x, index / grid.x)))
@@ -87,10 +91,26 @@ pub fn bake_deep(view: &View, moments: &[&Scene], deep: &Deep) -> DeepMap {
     DeepMap::new(*view, deep.epsilon, steps).expect("steps were made in order")
 }
 
+impl Moment {
+    fn new(fine: &View, casters: impl IntoIterator<Item: Into<Caster>>) -> Self {
+        let mut passes = Vec::new();
+        let triangles = casters.into_iter().map(|caster| {
+            let caster: Caster = caster.into();
+            passes.push(caster.passing());
+            caster.triangle
+        });
+        let bins = Bins::new(fine, TexelRect::of_size(fine.size()), Cull::None, triangles);
+        Self { bins, passes }
+    }
+
+    fn passes(&self, fragment: &Fragment) -> DVec3 {
+        self.passes[fragment.triangle as usize].as_dvec3()
+    }
+}
+
 struct Gather<'a> {
     fine: &'a View,
-    moments: &'a [&'a Scene],
-    bins: &'a [Bins],
+    moments: &'a [Moment],
     axis: u32,
     epsilon: f32,
 }
@@ -101,28 +121,31 @@ impl Gather<'_> {
         let side = TILE / self.axis;
         let origin = (tile * TILE).as_ivec2();
         let mut falls: Vec<Vec<(f32, DVec3)>> = Vec::new();
-        for (scene, bins) in self.moments.iter().zip(self.bins) {
+        for moment in self.moments {
             let mut met: Vec<Fragment> = Vec::new();
-            bins.tile(tile, |facet, coverage| {
+            moment.bins.tile(tile, |facet, coverage| {
                 each_fragment(self.fine, origin, facet, coverage, |cell, _, key| {
                     if !key.is_nan() {
-                        met.push(Fragment { cell: cell as u16, key, object: facet.object });
+                        let Facet { object, triangle, .. } = *facet;
+                        met.push(Fragment { cell: cell as u16, key, object, triangle });
                     }
                 });
             });
             if met.is_empty() {
                 continue;
             }
-            // By sample, from the light outward; ids make one order of equal keys.
+            // By sample, from the light outward; ids, then what passes, make one order of equal keys.
             met.sort_unstable_by(|a, b| {
-                a.cell.cmp(&b.cell).then(a.key.total_cmp(&b.key)).then(a.object.cmp(&b.object))
+                let by_light = || compare(moment.passes(a), moment.passes(b));
+                let by_key = a.cell.cmp(&b.cell).then(a.key.total_cmp(&b.key));
+                by_key.then(a.object.cmp(&b.object)).then_with(by_light)
             });
             falls.resize((side * side) as usize, Vec::new());
             for sample in met.chunk_by(|a, b| a.cell == b.cell) {
                 let cell = UVec2::new(u32::from(sample[0].cell) % TILE, u32::from(sample[0].cell) / TILE);
                 let texel = cell / self.axis;
                 let at = self.fine.sampling().position(origin + cell.as_ivec2());
-                self.add(scene, sample, at, &mut falls[(texel.y * side + texel.x) as usize]);
+                self.add(moment, sample, at, &mut falls[(texel.y * side + texel.x) as usize]);
             }
         }
         let samples = f64::from(self.axis * self.axis) * self.moments.len() as f64;
@@ -130,12 +153,12 @@ impl Gather<'_> {
     }
 
     /// What the light loses at each surface of one sample.
-    fn add(&self, scene: &Scene, sample: &[Fragment], at: glam::DVec2, falls: &mut Vec<(f32, DVec3)>) {
+    fn add(&self, moment: &Moment, sample: &[Fragment], at: glam::DVec2, falls: &mut Vec<(f32, DVec3)>) {
         let decode = self.fine.decode();
         let nearest = decode.depth(self.fine.key(self.fine.near()) as f32, at);
         let mut light = DVec3::ONE;
         for fragment in sample {
-            let passes = scene.objects[fragment.object as usize].passes.clamp(Vec3::ZERO, Vec3::ONE).as_dvec3();
+            let passes = moment.passes(fragment);
             let depth = decode.depth(fragment.key, at).max(nearest);
             // Depths from 1e30 on are none (C-5).
             if light == DVec3::ZERO || depth >= 1e30 {
@@ -150,10 +173,7 @@ impl Gather<'_> {
 /// The steps of a texel from what each of its samples loses at which depth.
 fn steps(mut falls: Vec<(f32, DVec3)>, samples: f64) -> Vec<Step> {
     // One order whatever the samples came in, so that sums round alike.
-    falls.sort_unstable_by(|a, b| {
-        let channel = |i: usize| a.1[i].total_cmp(&b.1[i]);
-        a.0.total_cmp(&b.0).then(channel(0)).then(channel(1)).then(channel(2))
-    });
+    falls.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then_with(|| compare(a.1, b.1)));
     let (mut lost, mut before) = (DVec3::ZERO, Vec3::ONE);
     let mut steps = Vec::new();
     for level in falls.chunk_by(|a, b| a.0 == b.0) {
@@ -165,4 +185,10 @@ fn steps(mut falls: Vec<(f32, DVec3)>, samples: f64) -> Vec<Step> {
         before = passes;
     }
     steps
+}
+
+/// One order of light, channel by channel.
+fn compare(a: DVec3, b: DVec3) -> Ordering {
+    let channel = |i: usize| a[i].total_cmp(&b[i]);
+    channel(0).then(channel(1)).then(channel(2))
 }

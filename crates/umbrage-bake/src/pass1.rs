@@ -1,14 +1,15 @@
 use glam::{DVec2, IVec2, UVec2};
 use rayon::prelude::*;
 use std::sync::Arc;
-use umbrage_depth::{DepthRule, Tile, Tiled};
+use umbrage_depth::{DepthRule, Reduction, Stored, Tile, Tiled};
 use umbrage_plane::{Facet, Facing, TexelRect, View, ViewError};
-use umbrage_raster::{Bins, Coverage, Cull, Stats, TILE, Triangle};
+use umbrage_raster::{Bins, Cull, Stats, TILE, Triangle, each_fragment};
 
 /// A depth map, and what became of the triangles.
 #[derive(Clone, Debug)]
 pub struct Baked {
-    /// The map in its native form, ready to be shared.
+    /// The map in its native form, ready to be shared. It stores the rule's surface, or back faces where the nearest was drawn without its
+    /// fronts.
     pub map: Arc<Tiled>,
     /// What the rasteriser did with the triangles.
     pub stats: Stats,
@@ -77,10 +78,29 @@ impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
                 (cells.and_then(|cells| self.resolve(&cells, tile)), fragments)
             })
             .unzip();
-        let map = Arc::new(Tiled::from_tiles(*self.view, made));
+        let stored = match (self.rule.stored(), cull) {
+            (Stored::First, Cull::Front) => Stored::BackFace,
+            (stored, _) => stored,
+        };
+        let map = Arc::new(Tiled::from_tiles(*self.view, made).with_stored(stored));
         Baked { map, stats: bins.stats(), fragments: fragments.iter().sum() }
     }
 
+    fn resolve(&self, cells: &[R::Cell; CELLS], tile: UVec2) -> Option<Tile> {
+        let decode = self.view.decode();
+        let nearest = self.view.key(self.view.near()) as f32;
+        let mut depths = Box::new([f32::INFINITY; CELLS]);
+        for (index, depth) in depths.iter_mut().enumerate() {
+            let texel = (tile * TILE).as_ivec2() + IVec2::new(index as i32 % TILE as i32, index as i32 / TILE as i32);
+            let at = self.view.sampling().position(texel);
+            // Clamped only now: a rule must tell surfaces apart that are all nearer than the near plane.
+            *depth = self.rule.resolve(cells[index], &decode, at).max(decode.depth(nearest, at));
+        }
+        Tile::new(depths, (self.view.size() - tile * TILE).min(UVec2::splat(TILE)))
+    }
+}
+
+impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     /// A tile's cells after all fragments, `None` where there were none, and the number of fragments.
     pub fn cells(&self, bins: &Bins, tile: UVec2) -> (Option<Box<[R::Cell; CELLS]>>, u64) {
         let axis = self.fine.size().x / self.view.size().x;
@@ -108,39 +128,5 @@ impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
             }
         }
         (cells, fragments)
-    }
-
-    fn resolve(&self, cells: &[R::Cell; CELLS], tile: UVec2) -> Option<Tile> {
-        let decode = self.view.decode();
-        let nearest = self.view.key(self.view.near()) as f32;
-        let mut depths = Box::new([f32::INFINITY; CELLS]);
-        for (index, depth) in depths.iter_mut().enumerate() {
-            let texel = (tile * TILE).as_ivec2() + IVec2::new(index as i32 % TILE as i32, index as i32 / TILE as i32);
-            let at = self.view.sampling().position(texel);
-            // Clamped only now: a rule must tell surfaces apart that are all nearer than the near plane.
-            *depth = self.rule.resolve(cells[index], &decode, at).max(decode.depth(nearest, at));
-        }
-        Tile::new(depths, (self.view.size() - tile * TILE).min(UVec2::splat(TILE)))
-    }
-}
-
-/// Calls `each` with every covered texel of a tile: its index in the tile, the place of its sample and its key there.
-#[inline(always)]
-pub(crate) fn each_fragment(
-    view: &View,
-    origin: IVec2,
-    facet: &Facet,
-    coverage: &Coverage,
-    mut each: impl FnMut(usize, DVec2, f32),
-) {
-    for row in coverage.first..coverage.end {
-        let mut bits = coverage.rows[usize::from(row)];
-        while bits != 0 {
-            let column = bits.trailing_zeros();
-            bits &= bits - 1;
-            let texel = origin + IVec2::new(column as i32, i32::from(row));
-            let at = view.sampling().position(texel);
-            each(usize::from(row) * TILE as usize + column as usize, at, facet.plane.at(at) as f32);
-        }
     }
 }

@@ -1,14 +1,14 @@
 use crate::pass1::Pass;
-use glam::{DVec2, UVec2};
+use glam::UVec2;
 use rayon::prelude::*;
-use umbrage_depth::{DepthRule, TagMap};
-use umbrage_plane::{Decode, Facet, TexelRect, View};
+use umbrage_depth::{Reduction, TagMap};
+use umbrage_plane::{Facet, TexelRect, View};
 use umbrage_raster::{Bins, Cull, TILE, Triangle};
 
 /// The nearest key and its object; of several objects at one key the smallest id, so that no order shows (V54).
 struct Nearest;
 
-impl DepthRule for Nearest {
+impl Reduction for Nearest {
     type Cell = (f32, u32);
     const EMPTY: (f32, u32) = (f32::INFINITY, u32::MAX);
 
@@ -17,13 +17,9 @@ impl DepthRule for Nearest {
             *cell = (key, facet.object);
         }
     }
-
-    fn resolve(&self, cell: (f32, u32), decode: &Decode, at: DVec2) -> f32 {
-        decode.depth(cell.0, at)
-    }
 }
 
-/// Pass 1 of the baseline by object tags: the id of the nearest object a texel (Wang & Molnar 1994; WM94-16).
+/// Pass 1 of the baseline by object tags: the id of the nearest object of each texel (Wang & Molnar 1994; WM94-16).
 pub fn bake_tags(view: &View, triangles: impl IntoIterator<Item = Triangle>) -> TagMap {
     let bins = Bins::new(view, TexelRect::of_size(view.size()), Cull::None, triangles);
     let grid = bins.tiles();

@@ -1,6 +1,6 @@
 use crate::pass1::Pass;
-use crate::{Baked, Soup};
-use glam::{DMat3, DVec2, DVec3, Vec3};
+use crate::{Baked, Caster};
+use glam::{DMat3, DVec2, DVec3};
 use umbrage_depth::DepthRule;
 use umbrage_plane::{Facet, Facing, Projection, View};
 use umbrage_raster::Cull;
@@ -9,21 +9,28 @@ use umbrage_raster::Cull;
 /// N·L < 0 (Wang & Molnar 1994; WM94-1 iii). With [`BackFace`](umbrage_depth::BackFace) only what faces away by that test is stored.
 ///
 /// N·L is interpolated as a camera would, in proportion over the triangle, not over the map. Where a triangle is edge-on to the light its own
-/// facing decides.
-pub fn bake_by_normals<R: DepthRule>(view: &View, soup: &Soup, rule: &R) -> Baked {
-    let sides: Vec<Option<DVec3>> = (0..soup.len() as u32).map(|triangle| side(view, soup.corners(triangle))).collect();
+/// facing decides, and so it does for triangles without [normals](Caster::normals).
+pub fn bake_by_normals<R: DepthRule>(
+    view: &View,
+    casters: impl IntoIterator<Item = impl Into<Caster>>,
+    rule: &R,
+) -> Baked {
+    let casters: Vec<Caster> = casters.into_iter().map(Into::into).collect();
+    let sides: Vec<Option<DVec3>> = casters.iter().map(|caster| side(view, caster)).collect();
     let front = |facet: &Facet, at: DVec2| match sides.get(facet.triangle as usize) {
         Some(Some(side)) => side.dot(ray(view, at)) > 0.0,
         _ => facet.facing == Facing::Front,
     };
-    Pass { view, fine: view, rule, front }.run(soup.triangles(), Cull::None)
+    Pass { view, fine: view, rule, front }.run(casters.iter().map(|caster| caster.triangle), Cull::None)
 }
 
-/// A vector whose product with [`ray`] has the sign of N·L at each place of a triangle; `None` for one that is edge-on.
+/// A vector whose product with [`ray`] has the sign of N·L at each place of a triangle; `None` for one that is edge-on or
+/// has no normals.
 ///
 /// N·L times the distance is linear over the triangle. In perspective a linear function of eye space divided by ζ is one of the ray; in an
 /// orthographic view it is one of the place itself.
-fn side(view: &View, (corners, normals): ([Vec3; 3], [Vec3; 3])) -> Option<DVec3> {
+fn side(view: &View, caster: &Caster) -> Option<DVec3> {
+    let (corners, normals) = (caster.triangle.corners, caster.normals?);
     let to_eye = view.world_to_eye();
     let eye = corners.map(|corner| to_eye.transform_point3(corner.as_dvec3()));
     let toward = |at: DVec3| if view.is_perspective() { -at } else { DVec3::Z };

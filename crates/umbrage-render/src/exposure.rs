@@ -1,0 +1,25 @@
+use crate::Soup;
+use umbrage_bake::{Deep, bake_deep, mix_moments};
+use umbrage_depth::{DeepMap, DepthMap, Tiled};
+use umbrage_plane::View;
+use umbrage_scene::Scene;
+
+/// Pass 1 over an exposure: each texel sees the scene at one of its moments, drawn once per texel from `seed` (EXT-2). A filter over such a
+/// map blurs what moves, with noise.
+///
+/// `moments` are the scene at evenly spread times, each made into a map of `view` by `bake`; none gives an empty map.
+pub fn expose<M: DepthMap>(view: &View, moments: &[&Scene], seed: u32, bake: impl Fn(&Scene) -> M) -> Tiled {
+    let maps: Vec<M> = moments.iter().map(|scene| bake(scene)).collect();
+    mix_moments(view, &maps, seed)
+}
+
+/// The deep map of an exposure: the mean over its moments of what passes the surfaces of a scene
+/// ([`Object::passes`](umbrage_scene::Object::passes); B06-11, EXT-2, EXT-3).
+///
+/// `moments` are the scene at evenly spread times, one of them for a scene at rest; none gives an empty map.
+///
+/// # Panics
+/// As [`Soup::casters`].
+pub fn expose_deep(view: &View, moments: &[&Scene], deep: &Deep) -> DeepMap {
+    bake_deep(view, moments.iter().map(|scene| Soup::casters(scene, view).into_casting()), deep)
+}

@@ -1,0 +1,49 @@
+//! The triangles of a scene.
+
+use glam::{UVec2, Vec3};
+use umbrage_bake::bake;
+use umbrage_depth::{DepthMap, First};
+use umbrage_plane::SurfacePoint;
+use umbrage_raster::{Cull, Triangle};
+use umbrage_render::Soup;
+use umbrage_scene::{Object, Scene, gallery};
+
+#[test]
+fn r87_5_only_casters_are_drawn_and_ids_and_sheets_reach_the_facets() {
+    let mut scene: Scene = gallery::sphere_plane();
+    scene.objects[0] = Object { solid: false, ..scene.objects[0].clone() };
+    scene.objects[1].casts = false;
+    let view = scene.lights[0].view;
+    let drawn: Vec<Triangle> = Soup::casters(&scene, &view).triangles().collect();
+    assert!(!drawn.is_empty() && drawn.iter().all(|triangle| triangle.object == 0 && triangle.sheet));
+    assert!(Soup::all(&scene, &view).triangles().any(|triangle| triangle.object == 1 && !triangle.sheet));
+}
+
+#[test]
+fn r87_21_a_map_of_16384_keeps_only_the_tiles_that_something_touched() {
+    let scene = gallery::sphere_plane();
+    let view = scene.lights[0].view.with_size(UVec2::splat(16_384)).unwrap();
+    let mut sphere = scene;
+    sphere.objects[1].casts = false;
+    let map = bake(&view, Soup::casters(&sphere, &view).triangles(), &First, Cull::None).map;
+    let share = map.bytes() as f64 / (16_384.0 * 16_384.0 * 4.0);
+    assert!(share > 0.01 && share < 0.1, "{share}");
+    let middle = view.receiver(&SurfacePoint::at(Vec3::new(0.0, 0.0, 25.0), Vec3::Z)).unwrap();
+    assert!(map.depth(middle.footprint.centre.as_ivec2()) < middle.depth);
+}
+
+#[test]
+fn triangles_come_with_what_passes_their_object_and_the_normals_of_their_mesh() {
+    let mut scene: Scene = gallery::sphere_plane();
+    scene.objects[0].passes = Vec3::new(0.5, 0.25, 0.0);
+    let view = scene.lights[0].view;
+    let soup = Soup::casters(&scene, &view);
+    let bare: Vec<Triangle> = soup.triangles().collect();
+    let casting: Vec<_> = soup.casting().collect();
+    assert_eq!(casting.iter().map(|caster| caster.triangle).collect::<Vec<_>>(), bare);
+    for caster in &casting {
+        assert_eq!(caster.passes, scene.objects[caster.triangle.object as usize].passes);
+        assert!(caster.normals.is_some_and(|normals| normals.iter().all(|normal| normal.is_normalized())));
+    }
+    assert_eq!(soup.into_casting().collect::<Vec<_>>(), casting);
+}
