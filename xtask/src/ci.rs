@@ -1,6 +1,6 @@
 //! Everything that must hold before a change is taken, in one order, here and on any server.
 
-use crate::cargo;
+use crate::programs::cargo;
 use anyhow::Context as _;
 use std::io::{BufRead, BufReader};
 use std::path::Path;

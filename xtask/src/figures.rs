@@ -1,5 +1,6 @@
 //! Starts the program that makes the figures, once cargo has built it.
 
+use crate::programs::cargo;
 use anyhow::Context as _;
 use std::ffi::OsString;
 use std::path::Path;
@@ -12,7 +13,7 @@ const NOT_BUILT: i32 = 101;
 ///
 /// Cargo is not told to be quiet: the first build takes minutes, and its user must see that something happens.
 pub fn run(root: &Path, args: &[OsString]) -> anyhow::Result<ExitCode> {
-    let mut command = Command::new(crate::cargo());
+    let mut command = Command::new(cargo());
     command.args(["run", "--release", "--package", "umbrage-figures", "--manifest-path"]);
     command.arg(root.join("Cargo.toml")).arg("--").args(args);
     let status = command.status().context("cargo run")?;

@@ -3,6 +3,7 @@
 
 mod ci;
 mod figures;
+mod programs;
 mod tidy;
 
 use std::ffi::OsString;
@@ -82,11 +83,6 @@ fn good_or_failed(good: bool) -> ExitCode {
 fn root() -> PathBuf {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     package.parent().unwrap_or(package).to_path_buf()
-}
-
-/// The cargo that runs this program.
-fn cargo() -> OsString {
-    std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
 }
 
 /// Prints every finding; whether there is none.

@@ -161,6 +161,15 @@ mod tests {
     }
 
     #[test]
+    fn stars_that_lead_round_come_to_an_end() {
+        let all = "pub use super::*; pub use super::b::*; pub use super::c::*; pub use other::all::*;";
+        let files = ["a.rs", "b.rs", "c.rs"].map(|file| (file, format!("{all} fn f() {{ unknown(unknown::x); }}")));
+        let mut files: Vec<(&str, &str)> = files.iter().map(|(file, text)| (*file, text.as_str())).collect();
+        files.push(("lib.rs", "mod a; mod b; mod c; pub use a::*; pub use b::*; pub use c::*;"));
+        assert_eq!(ways(&files), NONE);
+    }
+
+    #[test]
     fn what_cannot_be_read_is_a_finding() {
         assert_eq!(found(&[("lib.rs", "mod a;")]), ["lib.rs: there is no file for the module a"]);
         assert!(found(&[("lib.rs", "fn f( {")])[0].starts_with("lib.rs: is not Rust: "));

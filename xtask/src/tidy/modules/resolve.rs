@@ -1,7 +1,7 @@
 //! Who uses whom: names followed to where they are defined.
 
 use super::tree::{Module, Tree};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What a name stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,8 +11,8 @@ enum Meaning {
     ItemOf(usize),
 }
 
-/// Re-exports of re-exports are followed so far: a chain that is longer goes round.
-const DEEPEST: usize = 16;
+/// Words that one search has asked for already, by module: whoever asks again goes round, or fails as the first did.
+type Asked<'a> = BTreeSet<(usize, &'a str, bool)>;
 
 /// Every pair of a module and another that it uses, with the first place where it does.
 pub fn uses(tree: &Tree) -> BTreeMap<(usize, usize), String> {
@@ -23,7 +23,7 @@ pub fn uses(tree: &Tree) -> BTreeMap<(usize, usize), String> {
         let named =
             module.names.iter().filter(|named| tells(module, &named.path)).map(|named| (&named.path, named.line));
         for (path, line) in imported.chain(named) {
-            if let Some(Meaning::ItemOf(other)) = tree.meaning(index, path, DEEPEST)
+            if let Some(Meaning::ItemOf(other)) = tree.meaning(index, path, &mut Asked::new())
                 && other != index
             {
                 let place = || format!("{}:{line} uses {}", module.file, path.join("::"));
@@ -43,44 +43,53 @@ fn tells(module: &Module, path: &[String]) -> bool {
 
 impl Tree {
     /// What a path means in a module; `None` for what is from elsewhere, or not known.
-    fn meaning(&self, from: usize, path: &[String], deepest: usize) -> Option<Meaning> {
+    fn meaning<'a>(&'a self, from: usize, path: &'a [String], asked: &mut Asked<'a>) -> Option<Meaning> {
         let (first, rest) = path.split_first()?;
         let mut meaning = match first.as_str() {
             "crate" => Meaning::Module(0),
             "self" => Meaning::Module(from),
             "super" => Meaning::Module(self.modules[from].parent?),
-            name => self.look_up(from, name, !rest.is_empty(), deepest)?,
+            name => self.look_up(from, name, !rest.is_empty(), asked)?,
         };
         for (index, name) in rest.iter().enumerate() {
             // Behind an item come its variants and functions.
             let Meaning::Module(module) = meaning else { break };
             meaning = match name.as_str() {
                 "super" => Meaning::Module(self.modules[module].parent?),
-                name => self.look_up(module, name, index + 1 < rest.len(), deepest)?,
+                name => self.look_up(module, name, index + 1 < rest.len(), asked)?,
             };
         }
         Some(meaning)
     }
 
     /// What one word means in a module. A module and a function may bear one name: `goes_on` says that a module is meant.
-    fn look_up(&self, at: usize, name: &str, goes_on: bool, deepest: usize) -> Option<Meaning> {
-        let deepest = deepest.checked_sub(1)?;
+    fn look_up<'a>(&'a self, at: usize, name: &'a str, goes_on: bool, asked: &mut Asked<'a>) -> Option<Meaning> {
         let module = &self.modules[at];
         let child = module.children.get(name).map(|&child| Meaning::Module(child));
         let item = module.items.contains(name).then_some(Meaning::ItemOf(at));
         let own = if goes_on { child.or(item) } else { item.or(child) };
-        let imported = || {
-            // A `use` that brings a name like that of its own first word means another crate.
-            let imports = module.imports.iter().filter(|import| import.name == name && import.path != [name]);
-            imports.clone().find_map(|import| self.meaning(at, &import.path, deepest))
-        };
-        let by_star = || {
-            let stars = module.imports.iter().filter(|import| import.name == "*");
-            stars.clone().find_map(|star| match self.meaning(at, &star.path, deepest)? {
-                Meaning::Module(all) if all != at => self.look_up(all, name, goes_on, deepest),
-                _ => None,
-            })
-        };
-        own.or_else(imported).or_else(by_star)
+        if own.is_some() {
+            return own;
+        }
+        if !asked.insert((at, name, goes_on)) {
+            return None;
+        }
+        // A `use` of one word alone brings another crate's name.
+        let imports = module.imports.iter().filter(|import| import.name == name && import.path != [name]);
+        let stars = module.imports.iter().filter(|import| import.name == "*");
+        for import in imports {
+            if let Some(meaning) = self.meaning(at, &import.path, asked) {
+                return Some(meaning);
+            }
+        }
+        for star in stars {
+            if let Some(Meaning::Module(all)) = self.meaning(at, &star.path, asked)
+                && all != at
+                && let Some(meaning) = self.look_up(all, name, goes_on, asked)
+            {
+                return Some(meaning);
+            }
+        }
+        None
     }
 }
