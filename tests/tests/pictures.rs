@@ -2,10 +2,10 @@
 
 use glam::{UVec2, Vec3};
 use umbrage_bake::{advised_map_sizes, bake};
-use umbrage_depth::{First, Raw, Tiled};
+use umbrage_depth::{First, Raw, Storage, Tiled};
 use umbrage_plane::{Bias, Sampling, View};
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Picture, Recipe, Soup, Storage, bind, picture};
+use umbrage_render::{Frame, Picture, Recipe, Soup, bind, picture};
 use umbrage_scene::{Scene, gallery};
 use umbrage_shadow::{Shadow, Unshadowed, presets};
 

@@ -2,11 +2,11 @@
 
 use glam::{UVec2, Vec3};
 use umbrage_bake::bake;
-use umbrage_depth::{BackFace, DepthMap, Second, Tiled};
+use umbrage_depth::{BackFace, DepthMap, Second, Storage, Tiled};
 use umbrage_oracle::metrics;
 use umbrage_plane::TexelRect;
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Recipe, Soup, Storage, picture};
+use umbrage_render::{Frame, Recipe, Soup, picture};
 use umbrage_scene::{Material, Mesh, Object, Scene, gallery};
 
 const GREY: Material = Material::matt(Vec3::splat(0.7));

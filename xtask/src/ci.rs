@@ -1,5 +1,6 @@
 //! Everything that must hold before a change is taken, in one order, here and on any server.
 
+use crate::programs::cargo;
 use anyhow::Context as _;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -84,11 +85,6 @@ impl Steps<'_> {
         println!("{passed} passed, {failed} failed");
         self.ended.iter().all(|(_, good, _)| *good)
     }
-}
-
-/// The cargo that runs this program.
-fn cargo() -> std::ffi::OsString {
-    std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
 }
 
 /// Passed and failed tests over all closing lines.

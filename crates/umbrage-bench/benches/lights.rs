@@ -10,7 +10,7 @@ use umbrage_scene::tree::{Colour, Cone, Emission, Falloff, Mix, Product, Sight, 
 fn trees(criterion: &mut Criterion) {
     let (warm, cool) = (Vec3::new(1.3, 0.9, 0.4), Vec3::new(0.1, 0.2, 0.5));
     let falloff = Falloff { exponent: 2.0, reference: 12.0, most: 9.0 };
-    let cone = Cone::default().with_inner_deg(17.0).with_outer_deg(61.0);
+    let cone = Cone { inner_deg: 17.0, outer_deg: 61.0 };
     let data = Tree::Product(vec![
         Tree::Mix(Box::new([Tree::Cone(cone), Tree::colour(cool), Tree::colour(warm)])),
         Tree::Falloff(falloff),

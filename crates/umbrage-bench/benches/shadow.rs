@@ -4,8 +4,9 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{UVec2, Vec3};
 use std::hint::black_box;
+use umbrage_depth::Storage;
 use umbrage_plane::SurfacePoint;
-use umbrage_render::{Recipe, Storage};
+use umbrage_render::Recipe;
 use umbrage_sample::Key;
 use umbrage_scene::gallery;
 

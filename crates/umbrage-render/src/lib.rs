@@ -37,4 +37,3 @@ pub use picture::{Frame, NOTHING, Picture, picture};
 pub use planar::{Ground, Planar};
 pub use recipe::{Recipe, RecipeError, bind};
 pub use soup::Soup;
-pub use umbrage_depth::{Map, Storage};

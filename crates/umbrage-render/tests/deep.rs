@@ -2,10 +2,10 @@
 
 use glam::{DVec3, IVec2, UVec2, Vec3};
 use umbrage_bake::{Deep, bake};
-use umbrage_depth::{DeepMap, DepthMap, First, Raw};
+use umbrage_depth::{DeepMap, DepthMap, First, Map, Raw, Storage};
 use umbrage_plane::{SurfacePoint, TexelRect, View};
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Map, Recipe, Soup, Storage, expose, expose_deep, picture};
+use umbrage_render::{Frame, Recipe, Soup, expose, expose_deep, picture};
 use umbrage_sample::Key;
 use umbrage_scene::{Light, Material, Mesh, Object, Scene, Shape, gallery};
 use umbrage_shadow::Shadow;

@@ -1,8 +1,9 @@
 //! Lights of a scene bound by their own recipes, and the planar projection that shadow maps are contrasted with.
 
 use glam::{DVec3, UVec2, Vec3};
+use umbrage_depth::Storage;
 use umbrage_plane::Bias;
-use umbrage_render::{Frame, Ground, Picture, Planar, Recipe, Storage, bind, bind_lights, light_maps, picture};
+use umbrage_render::{Frame, Ground, Picture, Planar, Recipe, bind, bind_lights, light_maps, picture};
 use umbrage_scene::tree::Tree;
 use umbrage_scene::{Scene, gallery};
 use umbrage_shadow::{Shadow, presets};

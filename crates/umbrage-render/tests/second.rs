@@ -255,7 +255,7 @@ fn t_1_w92_9_a_single_sheet_over_a_floor_that_is_left_out_loses_its_shadow_to_mi
         let away = (DVec3::new(0.0, 0.0, 20.0) - view.light().truncate()).normalize();
         let under = DVec3::new(0.0, 0.0, 20.0) + away * (20.0 / -away.z);
         let map = recipe.bake(&scene, &view);
-        let shadow = recipe.bind(map, umbrage_render::Storage::Tiled);
+        let shadow = recipe.bind(map, umbrage_depth::Storage::Tiled);
         shadow.fraction(&SurfacePoint::at(under.as_vec3(), Vec3::Z), umbrage_sample::Key::new(0, 0, 0))
     };
     assert_eq!(shadow(sheet(20.0), false), 0.0, "one surface is none");

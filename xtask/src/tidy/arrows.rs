@@ -14,6 +14,7 @@ struct Rule {
 }
 
 const EVERY: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-io"];
+const FIGURES: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-report"];
 const PROPERTIES: &[&str] = &["proptest"];
 
 /// The drawing of the architecture page. A package that is not here may not exist.
@@ -73,13 +74,15 @@ const RULES: &[Rule] = &[
         outside: &["exr", "fearless_simd", "glam", "image", "thiserror"],
         tests: PROPERTIES,
     },
-    Rule { package: "umbrage-bench", arrows: EVERY, outside: &[], tests: &["criterion", "glam"] },
     Rule {
-        package: "xtask",
-        arrows: EVERY,
-        outside: &["anyhow", "clap", "glam", "indicatif", "rayon", "serde", "serde_json", "toml"],
+        package: "umbrage-report",
+        arrows: &["umbrage-io"],
+        outside: &["anyhow", "glam", "indicatif", "rayon", "serde", "serde_json"],
         tests: &[],
     },
+    Rule { package: "umbrage-figures", arrows: FIGURES, outside: &["anyhow", "clap", "glam", "rayon"], tests: &[] },
+    Rule { package: "umbrage-bench", arrows: EVERY, outside: &[], tests: &["criterion", "glam"] },
+    Rule { package: "xtask", arrows: &[], outside: &["anyhow", "proc-macro2", "toml"], tests: &[] },
     Rule { package: "umbrage-tests", arrows: EVERY, outside: &["fearless_simd", "glam", "rayon"], tests: PROPERTIES },
 ];
 

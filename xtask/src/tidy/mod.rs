@@ -1,10 +1,11 @@
-//! What no compiler checks: dependency arrows, allowed packages, words that must not be there, file sizes, links.
+//! What no compiler checks: dependency arrows, circles of modules, allowed packages, words that must not be there, file sizes, links.
 //!
 //! Each check is a function from text to findings, so that each can be shown to fail; this module walks the repository and
 //! hands them the text.
 
 mod arrows;
 mod files;
+mod modules;
 mod sources;
 
 use anyhow::Context as _;
@@ -28,6 +29,9 @@ pub fn findings(root: &Path) -> anyhow::Result<Vec<String>> {
             findings.extend(arrows::manifest(&name, &read()?));
         } else if path.extension().is_some_and(|end| end == "rs") {
             findings.extend(sources::source(&name, &read()?));
+            if name.ends_with("/src/lib.rs") || name.ends_with("/src/main.rs") {
+                findings.extend(modules::circles(&name, &|file| std::fs::read_to_string(root.join(file)).ok()));
+            }
         } else if name.ends_with("README.md") {
             let folder = path.parent().unwrap_or(root);
             findings.extend(files::dead_links(&name, &read()?, |link| folder.join(link).exists()));
@@ -69,7 +73,7 @@ mod tests {
         let put = |name: &str, text: &str| {
             let path = root.join(name);
             std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-            umbrage_io::write_bytes(&path, text.as_bytes()).unwrap();
+            std::fs::write(&path, text).unwrap();
         };
         put(
             "crates/umbrage-depth/Cargo.toml",

@@ -1,0 +1,226 @@
+//! What the repository keeps of the figures, and whether the code still makes it: the README's pictures at full size, and
+//! the numbers of a quick run.
+
+use crate::catalogue;
+use crate::figure::Context;
+use crate::run::Run;
+use anyhow::Context as _;
+use glam::UVec2;
+use std::path::Path;
+use umbrage_report::Report;
+use umbrage_report::text::{csv_field, file_stem, rounded};
+
+/// A picture of the README: its file, and the figure and panel that it is.
+struct Picture {
+    file: &'static str,
+    figure: &'static str,
+    panel: &'static str,
+}
+
+/// The README's pictures.
+const PICTURES: &[Picture] = &[
+    Picture { file: "fixtures/readme/hero.png", figure: "R87-F14", panel: "shop" },
+    Picture { file: "fixtures/readme/robot.png", figure: "W78-F8", panel: "robot" },
+    Picture { file: "fixtures/readme/lamps.png", figure: "R87-F12", panel: "c-jittered" },
+    Picture { file: "fixtures/readme/williams.png", figure: "W78-F6", panel: "applied" },
+    Picture { file: "fixtures/readme/ordinary.png", figure: "R87-F6", panel: "a-zoom" },
+    Picture { file: "fixtures/readme/filtered.png", figure: "R87-F6", panel: "b-zoom" },
+    Picture { file: "fixtures/readme/biased.png", figure: "W92-F2", panel: "full" },
+    Picture { file: "fixtures/readme/midpoint.png", figure: "W92-F3", panel: "full" },
+    Picture { file: "fixtures/readme/plant.png", figure: "B06-deep", panel: "plant" },
+];
+
+/// The numbers of a quick run with seed 0.
+const NUMBERS: &str = "fixtures/figures.csv";
+
+/// How far one code of a picture may stand from the kept one: another machine's mathematics rounds elsewhere.
+const CODES_APART: u8 = 3;
+/// The share of pixels that may stand further: a comparison of nearly equal depths may fall otherwise there.
+const PIXELS_APART: f64 = 0.001;
+/// How far a number may stand from the kept one, as a share of it.
+const NUMBERS_APART: f64 = 1e-3;
+
+/// What the code makes now, file by file.
+pub struct Goldens {
+    files: Vec<(&'static str, Vec<u8>)>,
+}
+
+/// Makes everything that is kept: the README's figures at full size in `readme` below the run's folder, all quick figures
+/// in `quick`. A gallery that stands in the run's folder stays as it is. Where the run is of some figures only, so is the
+/// comparison.
+///
+/// # Errors
+/// When a figure fails or a file cannot be written or read again.
+pub fn all(run: &Run) -> anyhow::Result<Goldens> {
+    let shown = |id: &str| PICTURES.iter().any(|picture| picture.figure == id);
+    let full = Run {
+        figures: run.figures.iter().copied().filter(|figure| shown(figure.id)).collect(),
+        context: Context { quick: false, ..run.context.clone() },
+        threads: run.threads,
+        out: run.out.join("readme"),
+    };
+    let mut files = Vec::new();
+    if !full.figures.is_empty() {
+        full.make()?;
+    }
+    for picture in PICTURES.iter().filter(|picture| full.figures.iter().any(|figure| figure.id == picture.figure)) {
+        let path = full.out.join(picture.figure).join(format!("{}.png", file_stem(picture.panel)));
+        files.push((picture.file, std::fs::read(&path).with_context(|| path.display().to_string())?));
+    }
+    let quick = Run {
+        figures: run.figures.clone(),
+        context: Context { quick: true, ..run.context.clone() },
+        threads: run.threads,
+        out: run.out.join("quick"),
+    };
+    files.push((NUMBERS, numbers(&quick.make()?).into_bytes()));
+    Ok(Goldens { files })
+}
+
+impl Goldens {
+    /// Writes the files into the repository at `root`.
+    ///
+    /// # Errors
+    /// When one cannot be written.
+    pub fn write(&self, root: &Path) -> anyhow::Result<()> {
+        for (file, bytes) in &self.files {
+            let path = root.join(file);
+            if let Some(folder) = path.parent() {
+                std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+            }
+            umbrage_io::write_bytes(&path, bytes)?;
+            println!("{file}");
+        }
+        Ok(())
+    }
+
+    /// What differs from the files of the repository at `root`, a line each.
+    pub fn compare(&self, root: &Path) -> Vec<String> {
+        let mut findings = Vec::new();
+        for (file, made) in &self.files {
+            match std::fs::read(root.join(file)) {
+                Err(error) => findings.push(format!("{file}: {error}")),
+                Ok(kept) if Path::new(file).extension().is_some_and(|end| end == "png") => {
+                    findings.extend(picture_differs(&kept, made).map(|how| format!("{file}: {how}")));
+                }
+                Ok(kept) => {
+                    let (kept, made) = (String::from_utf8_lossy(&kept), String::from_utf8_lossy(made));
+                    findings.extend(numbers_differ(&kept, &made).into_iter().map(|how| format!("{file}: {how}")));
+                }
+            }
+        }
+        findings
+    }
+}
+
+/// How two PNG files differ by more than the tolerance.
+fn picture_differs(kept: &[u8], made: &[u8]) -> Option<String> {
+    let (kept, made) = match (umbrage_io::decode_png(kept), umbrage_io::decode_png(made)) {
+        (Ok(kept), Ok(made)) => (kept, made),
+        (Err(fault), _) | (_, Err(fault)) => return Some(fault.to_string()),
+    };
+    if kept.size != made.size {
+        let UVec2 { x, y } = made.size;
+        return Some(format!("is {} × {}, the code makes {x} × {y}", kept.size.x, kept.size.y));
+    }
+    let apart = |pair: &(&[u8; 3], &[u8; 3])| pair.0.iter().zip(pair.1).any(|(a, b)| a.abs_diff(*b) > CODES_APART);
+    let count = kept.rgb.iter().zip(&made.rgb).filter(apart).count();
+    let share = count as f64 / kept.rgb.len().max(1) as f64;
+    (share > PIXELS_APART).then(|| format!("{count} pixels differ by more than {CODES_APART} codes"))
+}
+
+/// The numbers of a report as CSV, to six digits.
+fn numbers(report: &Report) -> String {
+    let rows = report.figures.iter().flat_map(|figure| {
+        figure.measures.iter().map(|measure| {
+            let value = measure.value.map(|value| rounded(value, 6).to_string()).unwrap_or_default();
+            format!("{},{},{value},{}\n", figure.id, csv_field(&measure.name), csv_field(&measure.unit))
+        })
+    });
+    std::iter::once("figure,measure,value,unit\n".to_string()).chain(rows).collect()
+}
+
+/// Rows as (everything but the value, value), of the figures that `of` names.
+fn rows(csv: &str) -> Vec<(String, String)> {
+    let cut = |line: &str| {
+        // The value is the field before the last, and neither holds a comma: units are plain.
+        let (rest, unit) = line.rsplit_once(',')?;
+        let (name, value) = rest.rsplit_once(',')?;
+        Some((format!("{name} [{unit}]"), value.to_string()))
+    };
+    csv.lines().skip(1).filter_map(cut).collect()
+}
+
+fn figure_of(row: &str) -> &str {
+    row.split(',').next().unwrap_or(row)
+}
+
+/// What differs between kept and made numbers. Figures that were not made are passed over, unless they are no longer in
+/// the catalogue.
+fn numbers_differ(kept: &str, made: &str) -> Vec<String> {
+    let (kept, made) = (rows(kept), rows(made));
+    let was_made = |row: &str| made.iter().any(|(name, _)| figure_of(name) == figure_of(row));
+    let exists = |row: &str| catalogue::figures().any(|figure| figure.id == figure_of(row));
+    let mut findings = Vec::new();
+    for (name, value) in &made {
+        match kept.iter().find(|(other, _)| other == name) {
+            None => findings.push(format!("does not hold {name}")),
+            Some((_, old)) if !alike(old, value) => findings.push(format!("{name} is {old}, the code makes {value}")),
+            Some(_) => {}
+        }
+    }
+    let gone = |name: &str| !made.iter().any(|(other, _)| other == name) && (was_made(name) || !exists(name));
+    findings.extend(kept.iter().filter(|(name, _)| gone(name)).map(|(name, _)| format!("the code makes no {name}")));
+    findings
+}
+
+fn alike(old: &str, new: &str) -> bool {
+    match (old.parse::<f64>(), new.parse::<f64>()) {
+        (Ok(old), Ok(new)) => (old - new).abs() <= NUMBERS_APART * old.abs().max(new.abs()).max(1e-6),
+        _ => old == new,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    #[test]
+    fn every_picture_of_the_readme_belongs_to_a_figure() {
+        for picture in PICTURES {
+            assert!(catalogue::figures().any(|figure| figure.id == picture.figure), "{}", picture.figure);
+        }
+    }
+
+    #[test]
+    fn pictures_may_differ_by_little_in_many_pixels_and_by_much_in_few() {
+        let png = |pixels: &[Vec3]| umbrage_io::encode_png(UVec2::new(100, 100), pixels).unwrap();
+        let plain = vec![Vec3::splat(0.5); 10_000];
+        let lighter = vec![Vec3::splat(0.505); 10_000];
+        let mut spotted = plain.clone();
+        spotted[..10].fill(Vec3::ONE);
+        assert_eq!(picture_differs(&png(&plain), &png(&lighter)), None);
+        assert_eq!(picture_differs(&png(&plain), &png(&spotted)), None);
+        spotted[10] = Vec3::ONE;
+        assert_eq!(picture_differs(&png(&plain), &png(&spotted)).unwrap(), "11 pixels differ by more than 3 codes");
+        let small = umbrage_io::encode_png(UVec2::new(1, 1), &[Vec3::ONE]).unwrap();
+        assert_eq!(picture_differs(&small, &png(&plain)).unwrap(), "is 1 × 1, the code makes 100 × 100");
+        assert!(picture_differs(b"no picture", &small).is_some());
+    }
+
+    #[test]
+    fn numbers_that_move_come_or_go_are_told() {
+        let head = "figure,measure,value,unit\n";
+        let kept = format!("{head}R87-F7,\"noise, rms\",0.5,share\nR87-F7,old,1,\nW78-F1,discs,4,\nX-1,gone,1,\n");
+        let made = format!("{head}R87-F7,\"noise, rms\",0.6,share\nR87-F7,new,1,\n");
+        let expected = [
+            "R87-F7,\"noise, rms\" [share] is 0.5, the code makes 0.6",
+            "does not hold R87-F7,new []",
+            "the code makes no R87-F7,old []",
+            "the code makes no X-1,gone []",
+        ];
+        assert_eq!(numbers_differ(&kept, &made), expected);
+        assert_eq!(numbers_differ(&kept.replace("0.5", "0.6003"), &made).len(), 3, "within the tolerance");
+    }
+}

@@ -1,0 +1,181 @@
+//! Reeves, Salesin & Cook 1987, §6: the same filter over something that is no depth. Highlights of a bumpy surface, transformed before
+//! they are filtered (R87-26, EXT-8).
+
+use crate::figure::{Context, Figure, Paper};
+use crate::stage::panels::error_panel;
+use glam::{UVec2, Vec2, Vec3};
+use umbrage_plane::{Footprint, mix32};
+use umbrage_report::plot::{Axis, Plot, Series};
+use umbrage_report::{Made, Measure, Panel, Role};
+use umbrage_sample::{EveryTexel, Jittered, Key, Pattern};
+use umbrage_shadow::weighted_mean;
+
+pub const BUMP: Figure = Figure {
+    id: "R87-bump",
+    paper: Paper::Reeves87,
+    title: "Highlights before filtering",
+    claim: "A bumpy surface far away keeps its highlight when each bump's own is filtered, and loses it when its normals are.",
+    make: bump,
+};
+
+const SIDE: u32 = 512;
+const EXPONENT: f32 = 10.0;
+
+/// A map of unit normals, z outward: bumps of random slope, a few texels wide.
+struct Bumps(Vec<Vec3>);
+
+impl Bumps {
+    fn new() -> Self {
+        let height = |x: u32, y: u32| {
+            let cell =
+                |i: u32, j: u32| f32::from((mix32(mix32(i & 127).wrapping_add(j & 127)) >> 16) as u16) / 65_535.0;
+            let (i, j, u, v) = (x / 4, y / 4, (x % 4) as f32 / 4.0, (y % 4) as f32 / 4.0);
+            let smooth = |t: f32| t * t * (3.0 - 2.0 * t);
+            let (u, v) = (smooth(u), smooth(v));
+            let top = cell(i, j) * (1.0 - u) + cell(i + 1, j) * u;
+            let bottom = cell(i, j + 1) * (1.0 - u) + cell(i + 1, j + 1) * u;
+            (top * (1.0 - v) + bottom * v) * 9.0
+        };
+        let normal = |index: u32| {
+            let (x, y) = (index % SIDE, index / SIDE);
+            let slope = Vec2::new(height(x + 1, y) - height(x, y), height(x, y + 1) - height(x, y));
+            Vec3::new(-slope.x, -slope.y, 1.0).normalize()
+        };
+        Self((0..SIDE * SIDE).map(normal).collect())
+    }
+
+    /// Repeats in both directions.
+    fn at(&self, texel: Vec2) -> Vec3 {
+        let wrap = |at: f32| (at.floor() as i64).rem_euclid(i64::from(SIDE)) as usize;
+        self.0[wrap(texel.y) * SIDE as usize + wrap(texel.x)]
+    }
+}
+
+/// Blinn's highlight of a normal.
+fn highlight(normal: Vec3, half: Vec3) -> f32 {
+    normal.dot(half).max(0.0).powf(EXPONENT)
+}
+
+/// Each normal's own highlight, then the mean.
+fn transformed_first(bumps: &Bumps, pattern: &impl Pattern, region: &Footprint, half: Vec3, key: Key) -> f32 {
+    weighted_mean(pattern, region, key, |tap| highlight(bumps.at(tap.at), half))
+}
+
+/// The mean normal's highlight, once more of unit length or not.
+fn filtered_first(
+    bumps: &Bumps,
+    pattern: &impl Pattern,
+    region: &Footprint,
+    half: Vec3,
+    key: Key,
+    renormalised: bool,
+) -> f32 {
+    let mean: Vec3 = weighted_mean(pattern, region, key, |tap| bumps.at(tap.at));
+    highlight(if renormalised { mean.normalize_or(half) } else { mean }, half)
+}
+
+/// A plane going away from the eye: what a pixel of the picture covers of the map.
+fn footprint(pixel: UVec2, size: UVec2) -> Footprint {
+    let ground = |x: f32, y: f32| {
+        // Rows go from near the horizon down to the feet.
+        let distance = 26.0 / (0.02 + y / size.y as f32);
+        Vec2::new((x / size.x as f32 - 0.5) * distance * 1.6, distance * 3.0)
+    };
+    let at = pixel.as_vec2();
+    let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| ground(at.x + x, at.y + y));
+    Footprint::around(corners)
+}
+
+fn bump(cx: &Context) -> anyhow::Result<Made> {
+    let bumps = Bumps::new();
+    let jittered = Jittered::default();
+    let many = jittered.with_num_samples(1024);
+    let half = Vec3::new(50f32.to_radians().sin(), 0.0, 50f32.to_radians().cos());
+    // Energy against the width of the region: what a highlight 50° off the surface keeps.
+    let widths: Vec<f32> = (0..=8).map(|step| 2f32.powi(step)).collect();
+    let rounds = cx.pick(2000, 400);
+    let energy = |f: &dyn Fn(&Footprint, Key) -> f32, width: f32| {
+        let one = |round: u32| {
+            let key = Key::new(cx.seed, 0, 0).region(round);
+            let centre = Vec2::new(key.unit(900, 0), key.unit(900, 1)) * SIDE as f32;
+            f64::from(f(&Footprint::boxed(centre, Vec2::splat(0.5 * width)), key))
+        };
+        (0..rounds).map(one).sum::<f64>() / f64::from(rounds)
+    };
+    let curve = |f: &dyn Fn(&Footprint, Key) -> f32| -> Vec<(f64, f64)> {
+        widths.iter().map(|&width| (f64::from(width), energy(f, width))).collect()
+    };
+    let ours = curve(&|region, key| transformed_first(&bumps, &jittered, region, half, key));
+    let exact = curve(&|region, key| transformed_first(&bumps, &EveryTexel, region, half, key));
+    let flat = curve(&|region, key| filtered_first(&bumps, &jittered, region, half, key, false));
+    let unit = curve(&|region, key| filtered_first(&bumps, &jittered, region, half, key, true));
+    let last = widths.len() - 1;
+    let (kept, lost, lost_unit) =
+        (ours[last].1 / exact[last].1, flat[last].1 / exact[last].1, unit[last].1 / exact[last].1);
+    // V59: two normals, at 0° and 60° to the half vector.
+    let two = [Vec3::Z, Vec3::new(60f32.to_radians().sin(), 0.0, 0.5)];
+    let region = Footprint::boxed(Vec2::new(1.0, 0.5), Vec2::new(1.0, 0.5));
+    let pair = |at: Vec2| two[usize::from(at.x >= 1.0)];
+    let key = Key::new(cx.seed, 0, 0);
+    let first: f32 = weighted_mean(&EveryTexel, &region, key, |tap| highlight(pair(tap.at), Vec3::Z));
+    let mean: Vec3 = weighted_mean(&EveryTexel, &region, key, |tap| pair(tap.at));
+    let size = UVec2::splat(cx.pick(384, 128));
+    let draw = |f: &dyn Fn(&Footprint, Key) -> f32| -> Vec<f32> {
+        (0..size.x * size.y)
+            .map(|i| f(&footprint(UVec2::new(i % size.x, i / size.x), size), Key::new(cx.seed, 0, 1).region(i)))
+            .collect()
+    };
+    let a = draw(&|region, key| transformed_first(&bumps, &jittered, region, half, key));
+    let b = draw(&|region, key| filtered_first(&bumps, &jittered, region, half, key, true));
+    let truth = draw(&|region, key| transformed_first(&bumps, &many, region, half, key));
+    let panel = |name: &str, caption: &str, values: &[f32]| Panel::grey(name, caption, size, values.to_vec());
+    let plot = Plot::new(
+        "Mean highlight of a bumpy surface",
+        Axis::log("width of the region, texels"),
+        Axis::linear("mean highlight"),
+    )
+    .add(Series::line("every bump's own, supersampled", exact))
+    .add(Series::dots("transformed, then filtered: 16 samples", ours))
+    .add(Series::line("filtered normals", flat))
+    .add(Series::line("filtered normals, of unit length again", unit));
+    Ok(Made {
+        panels: vec![
+            panel("transformed-first", "Highlights, then filtered: 16 samples", &a)
+                .with("exponent", EXPONENT)
+                .against("truth"),
+            panel("filtered-first", "Normals filtered, then their highlight", &b)
+                .with("exponent", EXPONENT)
+                .against("truth"),
+            panel("truth", "1,024 samples", &truth).role(Role::Truth),
+            error_panel("error", "Normals filtered first, less truth", size, &truth, &b),
+        ],
+        plots: vec![("energy".into(), plot.svg())],
+        measures: vec![
+            Measure::within(
+                "two normals: transformed, then filtered (V59)",
+                f64::from(first),
+                "",
+                0.500_487,
+                0.500_490,
+            ),
+            Measure::within(
+                "two normals: filtered, then transformed (V59)",
+                f64::from(highlight(mean, Vec3::Z)),
+                "",
+                0.056_312,
+                0.056_315,
+            ),
+            Measure::within(
+                "the same, of unit length again (V59)",
+                f64::from(highlight(mean.normalize(), Vec3::Z)),
+                "",
+                0.237_303,
+                0.237_307,
+            ),
+            Measure::within("regions of 256 texels: energy kept", kept, "share of truth", 0.9, 1.1),
+            Measure::at_most("filtered normals keep", lost, "share of truth", 0.5),
+            Measure::at_most("filtered normals of unit length keep", lost_unit, "share of truth", 0.5),
+        ],
+        ..Made::default()
+    })
+}

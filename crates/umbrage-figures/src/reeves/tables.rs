@@ -1,0 +1,265 @@
+//! Reeves, Salesin & Cook 1987, Tables 1 and 2: what shadows cost in time and in room.
+
+use crate::figure::{Context, Figure, Paper};
+use crate::stage::lights::Stage;
+use glam::{DVec2, UVec2};
+use std::sync::Mutex;
+use std::time::Instant;
+use umbrage_depth::{Bbox, DepthMap, Map, Raw, Tiled};
+use umbrage_plane::{SurfacePoint, TexelRect};
+use umbrage_render::{Frame, bind_lights, light_maps, picture};
+use umbrage_report::plot;
+use umbrage_report::{Made, Measure, Panel, Role, Table};
+use umbrage_sample::Key;
+use umbrage_scene::{Scene, gallery};
+use umbrage_shadow::Shadow;
+
+/// Our scene for each of the paper's four: its name here, the scene, casting lights, and from the paper the per cent of Table 1 and the
+/// MB of Table 2 (raw, box, tiles).
+struct Row {
+    name: &'static str,
+    scene: fn() -> Scene,
+    casting: usize,
+    percent: f64,
+    megabytes: [f64; 3],
+}
+
+/// The sphere scenes of the paper leave the plane out of the maps.
+fn without_slab(mut scene: Scene) -> Scene {
+    for object in scene.objects.iter_mut().filter(|object| object.name == "slab") {
+        object.casts = false;
+    }
+    scene
+}
+
+const ROWS: [Row; 4] = [
+    Row {
+        name: "sphere",
+        scene: || without_slab(gallery::sphere_plane()),
+        casting: 1,
+        percent: 37.3,
+        megabytes: [4.0, 0.4, 0.4],
+    },
+    Row {
+        name: "coloured lights",
+        scene: || without_slab(gallery::three_lights()),
+        casting: 3,
+        percent: 47.6,
+        megabytes: [12.0, 2.6, 2.9],
+    },
+    Row { name: "desk lamps", scene: gallery::desk_lamps, casting: 3, percent: 50.9, megabytes: [24.0, 13.0, 3.7] },
+    Row { name: "bicycle shop", scene: gallery::bicycle_shop, casting: 2, percent: 48.4, megabytes: [8.0, 5.6, 4.2] },
+];
+
+pub const T1: Figure = Figure {
+    id: "R87-T1",
+    paper: Paper::Reeves87,
+    title: "Time, with and without shadows",
+    claim: "Shadows cost a part of the picture's time, far less than one more picture a light.",
+    make: times,
+};
+
+/// Remembers the regions that it is asked about.
+#[derive(Default)]
+struct Regions(Mutex<Vec<SurfacePoint>>);
+
+impl Shadow for Regions {
+    fn fractions(&self, at: &[SurfacePoint], _key: Key, out: &mut [f32]) {
+        if let Ok(mut known) = self.0.lock() {
+            known.extend_from_slice(at);
+        }
+        out.fill(0.0);
+    }
+}
+
+/// Seconds of one scene on one thread.
+struct Times {
+    plain: f64,
+    pass_1: f64,
+    pass_2: f64,
+    /// Regions to the lights' spaces, all casting lights.
+    transform: f64,
+    /// Look-ups and comparisons, all casting lights.
+    filter: f64,
+    /// Regions times casting lights.
+    receivers: u64,
+}
+
+impl Times {
+    fn percent(&self) -> f64 {
+        100.0 * (self.pass_1 + self.pass_2 - self.plain) / self.plain
+    }
+
+    /// Shares of the extra time: pass 1, transformation, filtering, the rest (shading with the answers), in per cent.
+    fn breakdown(&self) -> [f64; 4] {
+        let extra = self.pass_1 + self.pass_2 - self.plain;
+        let rest = extra - self.pass_1 - self.transform - self.filter;
+        [self.pass_1, self.transform, self.filter, rest].map(|part| 100.0 * part / extra)
+    }
+}
+
+fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let done = work();
+    (done, start.elapsed().as_secs_f64())
+}
+
+fn measure(cx: &Context, stage: &Stage) -> anyhow::Result<Times> {
+    let frame = Frame { seed: cx.seed, ..Frame::default() };
+    let scene = &stage.scene;
+    // Once to warm up; then the better of two, as other work may be going on.
+    picture(scene, &[], &frame);
+    let plain = timed(|| picture(scene, &[], &frame)).1.min(timed(|| picture(scene, &[], &frame)).1);
+    let recipe = "reeves87".parse()?;
+    let (maps, pass_1) = timed(|| light_maps(scene, &recipe));
+    let maps = maps?;
+    // The listing as it is printed, corrected: what the paper's table is about.
+    let shadows = bind_lights(scene, &maps, &recipe, cx.storage)?;
+    let shadows: Vec<&dyn Shadow> = shadows.iter().map(AsRef::as_ref).collect();
+    let pass_2 = timed(|| picture(scene, &shadows, &frame)).1.min(timed(|| picture(scene, &shadows, &frame)).1);
+    let asked = Regions::default();
+    let mut known: Vec<&dyn Shadow> = vec![&asked];
+    known.truncate(scene.lights.len());
+    let mut first = scene.clone();
+    first.lights[0].casts = true;
+    picture(&first, &known, &frame);
+    let points = asked.0.into_inner().map_err(|_| anyhow::anyhow!("a worker stopped"))?;
+    let mut out = vec![0.0; points.len()];
+    let (mut transform, mut both, mut receivers) = (0.0, 0.0, 0);
+    for (light, map) in maps.iter().enumerate().filter_map(|(light, map)| Some((light, map.as_ref()?))) {
+        let view = map.view();
+        // The sum keeps the compiler from leaving the work out.
+        let (sum, seconds) = timed(|| {
+            points.iter().filter_map(|at| view.receiver(at).ok()).map(|r| f64::from(r.footprint.half.x)).sum::<f64>()
+        });
+        anyhow::ensure!(sum.is_finite(), "a footprint is not finite");
+        transform += seconds;
+        both += timed(|| shadows[light].fractions(&points, Key::new(cx.seed, 0, light as u32), &mut out)).1;
+        receivers += points.len() as u64;
+    }
+    Ok(Times { plain, pass_1, pass_2, transform, filter: both - transform, receivers })
+}
+
+fn times(cx: &Context) -> anyhow::Result<Made> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    let mut made = Made::default();
+    let mut rows = Vec::new();
+    for row in &ROWS {
+        let stage = Stage::new((row.scene)(), cx.pick(1024, 192), cx.pick(1, 4))?;
+        let casting = stage.maps.iter().flatten().count();
+        let measured = pool.install(|| measure(cx, &stage))?;
+        let share = measured.breakdown();
+        let per_receiver = 1e9 * (measured.transform + measured.filter) / measured.receivers as f64;
+        for (name, seconds) in
+            [("without shadows", measured.plain), ("pass 1", measured.pass_1), ("pass 2", measured.pass_2)]
+        {
+            made.timings.push((format!("{}: {name}", row.name), seconds));
+        }
+        rows.push(vec![
+            row.name.to_string(),
+            casting.to_string(),
+            format!("{:.2}", measured.plain),
+            format!("{:.0}", 1e3 * measured.pass_1),
+            format!("{:.2}", measured.pass_2),
+            format!("{:.2}", measured.pass_1 + measured.pass_2),
+            format!("{:.1}", measured.percent()),
+            format!("{:.1}", row.percent),
+            format!("{:.0} / {:.0} / {:.0} / {:.0}", share[0], share[1], share[2], share[3]),
+            format!("{per_receiver:.0}"),
+        ]);
+        made.measures.push(Measure::exactly(
+            &format!("{}: casting lights", row.name),
+            casting as f64,
+            "lights",
+            row.casting as f64,
+        ));
+        // Seconds stay out of the report, and yes or no out of quick runs, where they are a matter of chance.
+        let total = measured.pass_1 + measured.pass_2;
+        let judged = [
+            ("total below a picture more for each light", total < (1 + casting) as f64 * measured.plain),
+            ("total at most twice the picture without shadows", total <= 2.0 * measured.plain),
+            ("pass 1 of a light below the picture", measured.pass_1 < casting as f64 * measured.plain),
+        ];
+        for (what, yes) in judged.into_iter().filter(|_| !cx.quick) {
+            let name = format!("{}: {what}", row.name);
+            made.measures.push(Measure::exactly(&name, f64::from(u8::from(yes)), "yes = 1", 1.0));
+        }
+    }
+    let head = [
+        "scene",
+        "lights",
+        "plain, s",
+        "pass 1, ms",
+        "pass 2, s",
+        "total, s",
+        "more, %",
+        "paper, %",
+        "pass 1 / transf. / filter / rest, %",
+        "ns a receiver",
+    ];
+    made.plots.push(("table-1".into(), plot::table("One thread, this run", &head, &rows)));
+    made.note = "Seconds are of this run and machine, and stand in the picture and in timings.json only.".into();
+    Ok(made)
+}
+
+pub const T2: Figure = Figure {
+    id: "R87-T2",
+    paper: Paper::Reeves87,
+    title: "Storage of depth maps",
+    claim: "A bounding box helps; tiles help scattered scenes and can cost more.",
+    make: storage,
+};
+
+fn storage(cx: &Context) -> anyhow::Result<Made> {
+    let mut made = Made::default();
+    let mut rows = Vec::new();
+    // Compact: about alike. Scattered: tiles win. Everywhere: between.
+    let bounds = [(0.85, 1.25), (0.85, 1.25), (0.0, 0.5), (0.5, 0.95)];
+    for (row, (low, high)) in ROWS.iter().zip(bounds) {
+        let stage = Stage::new((row.scene)(), 64, 1)?;
+        let maps: Vec<&Map> = stage.maps.iter().flatten().collect();
+        let raws: Vec<Raw> = maps.iter().map(|map| Raw::copy_of(*map)).collect();
+        let sum =
+            |bytes: &dyn Fn(usize) -> usize| (0..maps.len()).map(bytes).sum::<usize>() as f64 / f64::from(1 << 20);
+        let found = [sum(&|i| raws[i].bytes()), sum(&|i| Bbox::from(&raws[i]).bytes()), sum(&|i| maps[i].bytes())];
+        for (whose, values) in [("", found), ("paper: ", row.megabytes)] {
+            let cells = values.iter().map(|mb| format!("{mb:.2}"));
+            rows.push(std::iter::once(format!("{whose}{}", row.name)).chain(cells).collect());
+        }
+        made.measures.push(Measure::exactly(&format!("{}: raw (V26)", row.name), found[0], "MB", row.megabytes[0]));
+        let ratio = format!("{}: tiles over box", row.name);
+        made.measures.push(Measure::within(&ratio, found[2] / found[1], "ratio", low, high));
+        let largest = (0..maps.len()).max_by_key(|&i| raws[i].depths().len()).unwrap_or(0);
+        let view = raws[largest].view();
+        let (size, grey) = halved(view.size(), &umbrage_io::depth_view(&raws[largest]), cx.pick(512, 256));
+        made.panels.push(
+            Panel::grey(row.name, &format!("{}: a light's map", row.name), size, grey)
+                .with("map", format!("{}²", view.size().x))
+                .role(Role::Map),
+        );
+    }
+    let head = ["scene", "raw MB", "box MB", "32² tiles MB"].map(String::from).to_vec();
+    made.tables.push(Table { name: "megabytes".into(), head, rows });
+    let view = gallery::sphere_plane().lights[0].view.with_size(UVec2::splat(1024))?;
+    let filled = |inside: &dyn Fn(glam::IVec2) -> bool| -> anyhow::Result<Raw> {
+        let depth = |t| if inside(t) { 1.0 } else { f32::INFINITY };
+        Ok(Raw::new(view, TexelRect::of_size(view.size()).texels().map(depth).collect())?)
+    };
+    let rectangle = filled(&|t| (100..=131).contains(&t.x) && (200..=231).contains(&t.y))?;
+    let disc = filled(&|t| (t.as_dvec2() + 0.5).distance(DVec2::splat(512.0)) < 160.0)?;
+    made.measures.extend([
+        Measure::exactly("32² rectangle: box (V27)", Bbox::from(&rectangle).bytes() as f64, "bytes", 4096.0),
+        Measure::exactly("32² rectangle: tiles (V27)", Tiled::from(&rectangle).bytes() as f64, "bytes", 16_384.0),
+        Measure::exactly("disc of radius 160: box (V28)", Bbox::from(&disc).bytes() as f64, "bytes", 409_600.0),
+        Measure::exactly("disc of radius 160: tiles (V28)", Tiled::from(&disc).bytes() as f64, "bytes", 88.0 * 4096.0),
+    ]);
+    Ok(made)
+}
+
+/// Every n-th pixel, so that a picture is no more than `most` across.
+fn halved(size: UVec2, grey: &[f32], most: u32) -> (UVec2, Vec<f32>) {
+    let step = size.x.div_ceil(most);
+    let small = size / step;
+    let texels = TexelRect::of_size(small).texels().map(|at| at.as_uvec2() * step);
+    (small, texels.map(|at| grey[(at.y * size.x + at.x) as usize]).collect())
+}

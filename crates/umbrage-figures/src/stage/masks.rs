@@ -1,0 +1,48 @@
+//! Where a picture is measured: masks over its pixels, its pixels as points, and the faults over them.
+
+use umbrage_oracle::metrics::{self, Grid};
+use umbrage_plane::SurfacePoint;
+use umbrage_render::{NOTHING, Picture};
+
+/// Pixels of one surface where metric M2 looks: wholly lit in truth, `border` pixels away from any shadow, facing the
+/// light by more than .05, and of an object that `keep` accepts.
+pub fn lit(truth: &Picture, border: usize, keep: impl Fn(u32) -> bool) -> Vec<bool> {
+    let lit = metrics::lit_mask(shadow_grid(truth), &truth.facing[0], border, 0.05);
+    metrics::both(&lit, &of(truth, keep))
+}
+
+/// False shadow over what `keep` accepts (M2), `border` pixels away from truth's shadows.
+pub fn acne(picture: &Picture, truth: &Picture, border: usize, keep: impl Fn(u32) -> bool) -> f64 {
+    value(metrics::false_shadow(&picture.shadow[0], &lit(truth, border, keep)))
+}
+
+/// Light where truth says shadowed, on surfaces that face the light by more than .05 (M8), `border` pixels away from truth's light.
+pub fn leak(picture: &Picture, truth: &Picture, border: usize) -> f64 {
+    let dark = metrics::dark_mask(shadow_grid(truth), &truth.facing[0], border, 0.05);
+    value(metrics::leak(&picture.shadow[0], &metrics::both(&dark, &of(truth, |_| true))))
+}
+
+/// What a picture's pixels see, as points; a pixel that sees nothing is left out.
+pub fn points_of(picture: &Picture) -> Vec<SurfacePoint> {
+    let seen = (0..picture.object.len()).filter(|&i| picture.object[i] != NOTHING);
+    seen.map(|i| {
+        let point = SurfacePoint::at(picture.position[i], picture.normal[i]);
+        SurfacePoint { region: i as u32, object: picture.object[i], ..point }
+    })
+    .collect()
+}
+
+/// Pixels wholly covered by an object that `keep` accepts.
+pub fn of(picture: &Picture, keep: impl Fn(u32) -> bool) -> Vec<bool> {
+    picture.object.iter().zip(&picture.share).map(|(&object, &share)| share == 1.0 && keep(object)).collect()
+}
+
+/// The shadow of light 0 as a metric's image.
+pub fn shadow_grid(picture: &Picture) -> Grid<'_> {
+    Grid::new(&picture.shadow[0], picture.size.x as usize)
+}
+
+/// A measure's value, NaN where there was nothing to measure: it meets no bound.
+pub fn value(measured: Option<f64>) -> f64 {
+    measured.unwrap_or(f64::NAN)
+}

@@ -1,0 +1,21 @@
+//! What no paper shows: methods side by side, fault by fault, on all scenes.
+
+mod curves;
+mod faults;
+mod methods;
+mod paging;
+mod softness;
+
+use crate::figure::Figure;
+
+/// The figures, in the order of the gallery.
+pub const FIGURES: &[&Figure] = &[
+    &curves::ACNE,
+    &curves::NOISE,
+    &faults::FAULTS,
+    &methods::SIZES,
+    &methods::GRAZING,
+    &methods::PRESETS,
+    &paging::PAGING,
+    &softness::SOFTNESS,
+];

@@ -1,0 +1,320 @@
+//! The gallery: one page that holds its styles, its script and its plots, and refers to the pictures beside it.
+
+use crate::made::Verdict;
+use crate::measure::Bound;
+use crate::panel::Role;
+use crate::record::{FigureRecord, MeasureRecord, PanelRecord, Report, TableRecord};
+use crate::text::escape;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// SVG texts by figure id and plot name.
+pub type Plots = BTreeMap<(String, String), String>;
+
+/// The page's text.
+pub fn html(report: &Report, quick: bool, plots: &Plots) -> String {
+    fill(include_str!("gallery/page.html"), |slot| match slot {
+        "css" => include_str!("gallery/page.css").into(),
+        "js" => include_str!("gallery/page.js").into(),
+        "tally" => tally(report),
+        "quick" if quick => {
+            "<p class=\"quick\">A quick run: pictures are smaller, and bounds that need full size are not judged.</p>"
+                .into()
+        }
+        "nav" => nav(report),
+        "summary" => report.figures.iter().map(summary_row).collect(),
+        "sections" => sections(report, plots),
+        _ => String::new(),
+    })
+}
+
+/// Replaces `{{name}}` by what `value` says of it, in one pass: what is put in is not looked at again.
+fn fill(template: &str, value: impl Fn(&str) -> String) -> String {
+    let mut text = String::new();
+    let mut rest = template;
+    while let Some((before, after)) = rest.split_once("{{") {
+        let Some((name, behind)) = after.split_once("}}") else { break };
+        text.push_str(before);
+        text.push_str(&value(name));
+        rest = behind;
+    }
+    text + rest
+}
+
+/// The texts of several items, one behind the other.
+fn joined<T>(items: impl IntoIterator<Item = T>, each: impl Fn(T) -> String) -> String {
+    items.into_iter().fold(String::new(), |text, item| text + &each(item))
+}
+
+fn class(verdict: Verdict) -> String {
+    format!("v-{}", verdict.word())
+}
+
+fn badge(verdict: Verdict) -> String {
+    format!("<span class=\"badge {}\">{}</span>", class(verdict), verdict.word())
+}
+
+fn tally(report: &Report) -> String {
+    let mut text = format!("<li><b>{}</b> figures</li>", report.figures.len());
+    for verdict in [Verdict::Reproduced, Verdict::Caveat, Verdict::Missed] {
+        let count = report.count(verdict);
+        if count > 0 {
+            let _ = write!(text, "<li class=\"{}\"><b>{count}</b> {}</li>", class(verdict), verdict.word());
+        }
+    }
+    text
+}
+
+/// The figures of each paper, in order.
+fn by_paper(report: &Report) -> Vec<(&str, &[FigureRecord])> {
+    report.figures.chunk_by(|a, b| a.paper == b.paper).map(|chunk| (chunk[0].paper.as_str(), chunk)).collect()
+}
+
+fn nav(report: &Report) -> String {
+    let mut text = String::new();
+    for (paper, figures) in by_paper(report) {
+        let _ = write!(text, "<div class=\"group\"><span class=\"paper\">{}</span>", escape(paper));
+        for figure in figures {
+            let (id, title) = (escape(&figure.id), escape(&figure.title));
+            let class = class(figure.verdict);
+            let _ = write!(
+                text,
+                "<a class=\"{class}\" href=\"#{id}\" title=\"{title}\"><b>{id}</b> <span>{title}</span></a>"
+            );
+        }
+        text.push_str("</div>");
+    }
+    text
+}
+
+fn summary_row(figure: &FigureRecord) -> String {
+    const KEY_MEASURES: usize = 2;
+    let missed = figure.measures.iter().filter(|measure| measure.pass == Some(false));
+    let met = figure.measures.iter().filter(|measure| measure.pass == Some(true));
+    let key = joined(missed.chain(met).take(KEY_MEASURES), |measure| {
+        let (name, value, bound) = (escape(&measure.name), value(measure), escape(&measure.bound.to_string()));
+        format!("<li>{} {name}: <b>{value}</b> <i>{bound}</i></li>", mark(measure.pass))
+    });
+    let (id, title) = (escape(&figure.id), escape(&figure.title));
+    format!(
+        "<tr><th scope=\"row\"><a href=\"#{id}\">{id}</a></th><td>{title}</td><td>{}</td><td><ul>{key}</ul></td></tr>\n",
+        badge(figure.verdict)
+    )
+}
+
+/// A value with its unit, as HTML.
+fn value(measure: &MeasureRecord) -> String {
+    let value = escape(&measure.value_text());
+    if measure.unit.is_empty() || measure.value.is_none() {
+        return value;
+    }
+    format!("{value} <span class=\"unit\">{}</span>", escape(&measure.unit))
+}
+
+fn mark(pass: Option<bool>) -> &'static str {
+    match pass {
+        Some(true) => "<span class=\"mark met\" role=\"img\" aria-label=\"met\">✓</span>",
+        Some(false) => "<span class=\"mark unmet\" role=\"img\" aria-label=\"not met\">✗</span>",
+        None => "<span class=\"mark\"></span>",
+    }
+}
+
+fn sections(report: &Report, plots: &Plots) -> String {
+    let mut text = String::new();
+    for (index, (paper, figures)) in by_paper(report).into_iter().enumerate() {
+        let _ = writeln!(text, "<section class=\"paper\" id=\"paper-{}\"><h2>{}</h2>", index + 1, escape(paper));
+        for figure in figures {
+            text.push_str(&article(figure, plots));
+        }
+        text.push_str("</section>\n");
+    }
+    text
+}
+
+fn article(figure: &FigureRecord, plots: &Plots) -> String {
+    let id = escape(&figure.id);
+    let mut text = format!(
+        "<article id=\"{id}\"><header><p class=\"line\"><a href=\"#{id}\" class=\"id\">{id}</a>{}</p><h3>{}</h3>\
+         <p class=\"claim\"><span>Must show</span> {}</p></header>\n",
+        badge(figure.verdict),
+        escape(&figure.title),
+        escape(&figure.claim)
+    );
+    if let Some(caveat) = &figure.caveat {
+        let _ = writeln!(text, "<p class=\"caveat\"><b>Caveat.</b> {}</p>", escape(caveat));
+    }
+    let (wipe, measures) = (wipe(figure), measures(&figure.measures));
+    let panels = match joined(&figure.panels, panel) {
+        none if none.is_empty() => none,
+        panels => format!("<div class=\"panels\">{panels}</div>\n"),
+    };
+    // Numbers stand beside a wipe; without one the pictures come first.
+    if wipe.is_empty() {
+        let _ = writeln!(text, "{panels}<div class=\"plate\">{measures}</div>");
+    } else {
+        let both = if measures.is_empty() { "" } else { " both" };
+        let _ = writeln!(text, "<div class=\"plate{both}\">{wipe}{measures}</div>\n{panels}");
+    }
+    if !figure.plots.is_empty() {
+        let svgs = figure.plots.iter().filter_map(|name| plots.get(&(figure.id.clone(), name.clone())));
+        let plots = joined(svgs, |svg| format!("<div class=\"plot\">{svg}</div>"));
+        let _ = writeln!(text, "<div class=\"plots\">{plots}</div>");
+    }
+    text.extend(figure.tables.iter().map(table));
+    if !figure.note.is_empty() {
+        let _ = writeln!(text, "<p class=\"note\">{}</p>", escape(&figure.note));
+    }
+    text + "</article>\n"
+}
+
+/// The slider between each result and the panel that it is compared with.
+fn wipe(figure: &FigureRecord) -> String {
+    let partner = |panel: &PanelRecord| figure.panels.iter().find(|other| panel.against.as_ref() == Some(&other.name));
+    let pairs: Vec<(&PanelRecord, &PanelRecord)> =
+        figure.panels.iter().filter_map(|panel| Some((panel, partner(panel)?))).collect();
+    let Some((first, truth)) = pairs.first() else { return String::new() };
+    let mut tabs = String::new();
+    for (result, truth) in &pairs {
+        let _ = write!(
+            tabs,
+            "<button type=\"button\" aria-pressed=\"{}\" data-result=\"{}\" data-truth=\"{}\" data-other=\"{}\" \
+             data-style=\"{}\">{}</button>",
+            result.name == first.name,
+            escape(&result.file),
+            escape(&truth.file),
+            escape(&truth.caption),
+            stage(result),
+            escape(&result.caption)
+        );
+    }
+    let hidden = if pairs.len() == 1 { " hidden" } else { "" };
+    let (style, result, other) = (stage(first), escape(&first.caption), escape(&truth.caption));
+    format!(
+        "<div class=\"wipe\"><div class=\"tabs\" role=\"group\" aria-label=\"Result\"{hidden}>{tabs}</div>\
+         <div class=\"stage\" style=\"{style}\"><img class=\"under\" src=\"{}\" alt=\"{result}\">\
+         <img class=\"over\" src=\"{}\" alt=\"{other}\"><span class=\"bar\"></span>\
+         <input type=\"range\" min=\"0\" max=\"100\" step=\"0.5\" value=\"50\" \
+         aria-label=\"Wipe between result and truth\"></div>\
+         <p class=\"sides\"><span>{result}</span><span>{other}</span></p></div>",
+        escape(&first.file),
+        escape(&truth.file)
+    )
+}
+
+/// Small pictures are enlarged by a whole number, so that every pixel keeps its shape.
+fn stage(panel: &PanelRecord) -> String {
+    const WIDEST: u32 = 520;
+    let [width, height] = panel.size;
+    let times = (WIDEST / width.max(1)).max(1);
+    format!("width:{}px;aspect-ratio:{width}/{height}", width * times)
+}
+
+fn panel(panel: &PanelRecord) -> String {
+    let (file, caption) = (escape(&panel.file), escape(&panel.caption));
+    let [width, height] = panel.size;
+    let role = match panel.role {
+        Role::Result => "",
+        Role::Truth => "<span class=\"role truth\">truth</span>",
+        Role::Error => "<span class=\"role error\">error</span>",
+        Role::Map => "<span class=\"role\">data</span>",
+    };
+    let mut parameters = String::new();
+    for (name, value) in &panel.parameters {
+        let _ = write!(parameters, "<div><dt>{}</dt><dd>{}</dd></div>", escape(name), escape(value));
+    }
+    if panel.zoom > 1 {
+        let _ = write!(parameters, "<div><dt>zoom</dt><dd>{} ×</dd></div>", panel.zoom);
+    }
+    let list = if parameters.is_empty() { String::new() } else { format!("<dl>{parameters}</dl>") };
+    format!(
+        "<figure><a href=\"{file}\" class=\"open\" data-caption=\"{caption}\" data-zoom=\"{}\"><img decoding=\"async\" \
+         src=\"{file}\" width=\"{width}\" height=\"{height}\" alt=\"{caption}\"></a><figcaption><p>{caption}{role}</p>{list}\
+         </figcaption></figure>\n",
+        panel.zoom
+    )
+}
+
+fn measures(measures: &[MeasureRecord]) -> String {
+    if measures.is_empty() {
+        return String::new();
+    }
+    let rows = joined(measures, |measure| {
+        let (name, bound) = (escape(&measure.name), escape(&measure.bound.to_string()));
+        let class = if measure.pass == Some(false) { " class=\"unmet\"" } else { "" };
+        let told = if matches!(measure.bound, Bound::NotJudged(_)) { " told" } else { "" };
+        format!(
+            "<tr{class}><td>{}</td><td>{name}</td><td class=\"number\">{}</td><td class=\"bound{told}\">{bound}</td></tr>",
+            mark(measure.pass),
+            value(measure)
+        )
+    });
+    format!(
+        "<div class=\"measures\"><table><thead><tr><th><span class=\"unseen\">Met</span></th><th>Measure</th><th \
+         class=\"number\">Value</th><th class=\"bound\">Bound</th></tr></thead><tbody>{rows}</tbody></table></div>"
+    )
+}
+
+fn table(table: &TableRecord) -> String {
+    let cells = |row: &[String], tag: &str| joined(row, |cell| format!("<{tag}>{}</{tag}>", escape(cell)));
+    let rows = joined(&table.rows, |row| format!("<tr>{}</tr>", cells(row, "td")));
+    format!(
+        "<div class=\"table\" tabindex=\"0\"><table><thead><tr>{}</tr></thead><tbody>{rows}</tbody></table></div>\n",
+        cells(&table.head, "th")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::made::{Made, Table};
+    use crate::measure::Measure;
+    use crate::panel::Panel;
+    use crate::record::Heading;
+    use glam::UVec2;
+
+    fn report() -> Report {
+        let panel = |name: &str| Panel::grey(name, "<b>caption</b>", UVec2::new(8, 4), vec![0.0; 32]);
+        let made = Made {
+            panels: vec![panel("result").with("\"p\"", "<v>").against("truth"), panel("truth").role(Role::Truth)],
+            plots: vec![("curve".into(), "<svg id=\"plot\"></svg>".into())],
+            tables: vec![Table { name: "t".into(), head: vec!["<h>".into()], rows: vec![vec!["{{css}}".into()]] }],
+            measures: vec![Measure::new("<m>", 1.0, "<u>", Bound::AtMost(0.5))],
+            note: "a & b".into(),
+            caveat: Some("1 > 0.5".into()),
+            timings: vec![("secret".into(), 12.345)],
+        };
+        let heading =
+            Heading { id: "T-1".into(), paper: "Umbrage".into(), title: "<title>".into(), claim: "<claim>".into() };
+        Report { figures: vec![FigureRecord::new(&heading, &made)] }
+    }
+
+    fn page() -> String {
+        let plots = [(("T-1".to_string(), "curve".to_string()), "<svg id=\"plot\"></svg>".to_string())];
+        html(&report(), true, &Plots::from(plots))
+    }
+
+    #[test]
+    fn everything_a_figure_says_is_escaped() {
+        let page = page();
+        for raw in ["<b>caption", "\"p\"", "<v>", "<h>", "<m>", "<u>", "<claim>", "1 > 0.5", "a & b"] {
+            assert!(!page.contains(raw), "{raw}");
+        }
+        assert!(page.contains("<td>{{css}}</td>"), "what is put in is not a slot");
+        assert!(page.contains("&lt;title&gt;") && page.contains("1 &gt; 0.5"));
+    }
+
+    #[test]
+    fn the_page_needs_nothing_from_elsewhere() {
+        let page = page();
+        assert!(!page.contains("http:") && !page.contains("https:") && !page.contains("src=\"/"), "an address outside");
+        assert!(page.contains("src=\"T-1/result.png\"") && page.contains("<svg id=\"plot\">"));
+        assert!(page.contains("aria-label=\"Wipe between") && page.contains("badge v-caveat"));
+        assert!(!page.contains("12.345"), "x8 no times");
+        assert!(page.contains("A quick run") && !html(&report(), false, &Plots::new()).contains("A quick run"));
+    }
+
+    #[test]
+    fn an_empty_report_is_a_page_too() {
+        assert!(html(&Report { figures: Vec::new() }, false, &Plots::new()).contains("<b>0</b> figures"));
+    }
+}
