@@ -3,7 +3,7 @@
 use super::values::{bias, number, one_of, share};
 use super::{RecipeError, Set, over};
 use umbrage_depth::Map;
-use umbrage_sample::Tent;
+use umbrage_sample::{AnyPattern, Tent};
 use umbrage_shadow::{Conditional, Shadow, VirtualWhen, presets};
 
 pub const FIELDS: &str = "stored, ratio, merge, same, epsilon, sub-samples, nearby, pattern, res-factor, min-size, bias, slack, reach, virtual, min-cos or backs";
@@ -47,22 +47,8 @@ impl WangMolnar {
     }
 
     pub fn bind(self, map: Map) -> Box<dyn Shadow> {
-        let Conditional { res_factor, min_size, plane, min_cos, when, dark_backs, .. } = self.filter;
-        if self.tent {
-            over(
-                Conditional::default()
-                    .with_pattern(Tent)
-                    .with_res_factor(res_factor)
-                    .with_min_size(min_size)
-                    .with_plane(plane)
-                    .with_min_cos(min_cos)
-                    .with_when(when)
-                    .with_dark_backs(dark_backs),
-                map,
-            )
-        } else {
-            over(self.filter, map)
-        }
+        let pattern: AnyPattern = if self.tent { Tent.into() } else { self.filter.pattern.into() };
+        over(self.filter.with_pattern(pattern), map)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::values::{bias_range, number, one_of, share};
 use super::{RecipeError, Set};
 use umbrage_plane::Bias;
-use umbrage_shadow::{Biased, Cone, OnPlane, Radius, Spread};
+use umbrage_shadow::{AnyDepth, Biased, Cone, OnPlane, Radius, Spread};
 
 /// Which depth is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +28,15 @@ impl Depth {
     pub fn new(choice: Choice, biased: Biased) -> Self {
         let Cone { slope, radius, .. } = Cone::default();
         Self { choice, biased, slope, radius, slack: 0.0, reach: f32::INFINITY }
+    }
+
+    /// The one that is meant.
+    pub fn chosen(&self) -> AnyDepth {
+        match self.choice {
+            Choice::Constant => self.biased.into(),
+            Choice::Plane => self.plane().into(),
+            Choice::Cone => self.cone().into(),
+        }
     }
 
     pub fn plane(&self) -> OnPlane {

@@ -6,9 +6,9 @@ use super::{RecipeError, Set, over};
 use umbrage_depth::Map;
 use umbrage_plane::Bias;
 use umbrage_sample::{
-    Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Pattern, Tent, Uniform,
+    AnyPattern, Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Tent, Uniform,
 };
-use umbrage_shadow::{Biased, IntegerFirst, Pcf, ReceiverDepth, Shadow};
+use umbrage_shadow::{Biased, IntegerFirst, Pcf, Shadow};
 
 pub const FIELDS: &str = "stored, ratio, merge, same, epsilon, sub-samples, pattern, samples, min-samples, jitter, hard-cap, compare, unit, res-factor, min-size, bias, spread, depth, slope, radius, slack or reach";
 
@@ -105,41 +105,22 @@ impl Reeves {
                 map,
             );
         }
-        match self.depth.choice {
-            Choice::Constant => self.with_depth(self.depth.biased, map),
-            Choice::Plane => self.with_depth(self.depth.plane(), map),
-            Choice::Cone => self.with_depth(self.depth.cone(), map),
-        }
+        over(self.pcf.with_pattern(self.pattern()).with_depth(self.depth.chosen()), map)
     }
 
-    fn with_depth<D: ReceiverDepth + 'static>(self, depth: D, map: Map) -> Box<dyn Shadow> {
-        let num_samples = self.pcf.pattern.num_samples;
+    fn pattern(self) -> AnyPattern {
+        let jittered = self.pcf.pattern;
+        let num_samples = jittered.num_samples;
         match self.pattern {
-            PatternName::Jittered => self.with(self.pcf.pattern, depth, map),
-            PatternName::Uniform => self.with(Uniform::default().with_num_samples(num_samples), depth, map),
-            PatternName::Gaussian => self.with(Gaussian::default().with_num_samples(num_samples), depth, map),
-            PatternName::Inside => self.with(InsideQuadReject(self.pcf.pattern), depth, map),
-            PatternName::Warp => self.with(InsideQuadWarp(self.pcf.pattern), depth, map),
-            PatternName::Every => self.with(EveryTexel, depth, map),
-            PatternName::Tent => self.with(Tent, depth, map),
-            PatternName::Centre => self.with(Centre, depth, map),
-            PatternName::Disc => {
-                let disc = Disc::default().with_num_samples(num_samples).with_density(Density::Uniform);
-                self.with(disc, depth, map)
-            }
+            PatternName::Jittered => jittered.into(),
+            PatternName::Uniform => Uniform::default().with_num_samples(num_samples).into(),
+            PatternName::Gaussian => Gaussian::default().with_num_samples(num_samples).into(),
+            PatternName::Inside => InsideQuadReject(jittered).into(),
+            PatternName::Warp => InsideQuadWarp(jittered).into(),
+            PatternName::Every => EveryTexel.into(),
+            PatternName::Tent => Tent.into(),
+            PatternName::Centre => Centre.into(),
+            PatternName::Disc => Disc::default().with_num_samples(num_samples).with_density(Density::Uniform).into(),
         }
-    }
-
-    fn with<P: Pattern + 'static, D: ReceiverDepth + 'static>(self, pattern: P, depth: D, map: Map) -> Box<dyn Shadow> {
-        let Pcf { res_factor, min_size, cull, .. } = self.pcf;
-        over(
-            Pcf::default()
-                .with_pattern(pattern)
-                .with_depth(depth)
-                .with_res_factor(res_factor)
-                .with_min_size(min_size)
-                .with_cull(cull),
-            map,
-        )
     }
 }

@@ -6,7 +6,7 @@ use super::{RecipeError, Set, over};
 use umbrage_depth::Map;
 use umbrage_plane::Bias;
 use umbrage_sample::{Density, Disc};
-use umbrage_shadow::{Biased, Extent, Falloff, ReceiverDepth, Shadow, Soft, Softness, presets};
+use umbrage_shadow::{Biased, Extent, Falloff, Shadow, Soft, Softness, presets};
 
 pub const FIELDS: &str = "stored, ratio, merge, same, epsilon, sub-samples, min, max, light, nearest, search, blur, rotate, half-offset, rescue, falloff, shape, opacity, opacity-shape, fade, bias, spread, depth, slope, radius, slack or reach";
 
@@ -118,28 +118,7 @@ impl Burley {
     }
 
     pub fn bind(self, map: Map) -> Box<dyn Shadow> {
-        match self.depth.choice {
-            Choice::Constant => self.with_depth(self.depth.biased, map),
-            Choice::Plane => self.with_depth(self.depth.plane(), map),
-            Choice::Cone => self.with_depth(self.depth.cone(), map),
-        }
-    }
-
-    fn with_depth<D: ReceiverDepth + 'static>(self, depth: D, map: Map) -> Box<dyn Shadow> {
-        let Soft { search, blur, falloff, radius_gamma, opacity, rescue, .. } = self.soft;
-        let softness = self.softness();
-        over(
-            Soft::default()
-                .with_softness(softness)
-                .with_search(search)
-                .with_blur(blur)
-                .with_falloff(falloff)
-                .with_depth(depth)
-                .with_radius_gamma(radius_gamma)
-                .with_opacity(opacity)
-                .with_rescue(rescue),
-            map,
-        )
+        over(self.soft.with_softness(self.softness()).with_depth(self.depth.chosen()), map)
     }
 }
 
