@@ -134,13 +134,14 @@ impl Filter for Williams {
         }
         match self.lookup {
             Lookup::Bilinear(guard) if view.locate(at) != Where::Outside => {
-                if compared > bilinear(query.map(), at, guard, receiver) {
-                    // What the four texels stop in all: everything, unless the map is deep.
-                    let (texels, fraction) = four(view, at);
-                    lerp(texels.map(|texel| query.texel(texel).dark(f32::INFINITY)), fraction)
+                let dark = compared > bilinear(query.map(), at, guard, receiver);
+                let (texels, fraction) = four(view, at);
+                let surfaces = texels.map(|texel| query.texel(texel));
+                if dark && query.map().translucent().is_some() {
+                    // What the surfaces of the four texels stop in all.
+                    lerp(surfaces.map(|surfaces| surfaces.dark(f32::INFINITY)), fraction)
                 } else {
-                    query.count(4);
-                    0.0
+                    f32::from(u8::from(dark))
                 }
             }
             // Outside the map there is nothing to interpolate, only what a neighbour may store there.
