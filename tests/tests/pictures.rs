@@ -24,7 +24,7 @@ fn map(scene: &Scene, view: &View) -> Tiled {
 fn bits(picture: &Picture) -> Vec<u32> {
     let colour = picture.colour.iter().flat_map(|c| <[f32; 3]>::from(*c));
     let shadow = picture.shadow.iter().flatten().copied();
-    let place = picture.position.iter().flat_map(|p| <[f32; 3]>::from(*p));
+    let place = picture.position.iter().flat_map(|p| <[f32; 3]>::from(p.as_vec3()));
     colour.chain(shadow).chain(place).chain(picture.depth.iter().copied()).map(f32::to_bits).collect()
 }
 

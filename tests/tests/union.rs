@@ -1,6 +1,6 @@
 //! Solids that reach into each other: what second surfaces they have, and that shadows do not show it.
 
-use glam::{UVec2, Vec3};
+use glam::{DVec3, UVec2, Vec3};
 use umbrage_depth::{BackFace, DepthMap, Second, Tiled};
 use umbrage_oracle::metrics;
 use umbrage_plane::TexelRect;
@@ -16,6 +16,7 @@ fn wm94_2_in_each_other_builders_differ_inside_and_shadows_agree_on_the_union() 
     let block = |low: [f32; 3], high: [f32; 3]| Object::solid("block", Mesh::cuboid(low.into(), high.into()), GREY);
     let scene = Scene {
         name: "union".into(),
+        origin: DVec3::ZERO,
         objects: vec![
             block([-20.0, -10.0, 12.0], [0.0, 10.0, 26.0]),
             block([-12.0, -6.0, 18.0], [10.0, 14.0, 34.0]),

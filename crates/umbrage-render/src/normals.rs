@@ -23,9 +23,9 @@ pub fn bake_by_normals<R: DepthRule>(view: &View, soup: &Soup, rule: &R) -> Bake
 ///
 /// N·L times the distance is linear over the triangle. In perspective a linear function of eye space divided by ζ is one of the ray; in an
 /// orthographic view it is one of the place itself.
-fn side(view: &View, (corners, normals): ([Vec3; 3], [Vec3; 3])) -> Option<DVec3> {
+fn side(view: &View, (corners, normals): ([DVec3; 3], [Vec3; 3])) -> Option<DVec3> {
     let to_eye = view.world_to_eye();
-    let eye = corners.map(|corner| to_eye.transform_point3(corner.as_dvec3()));
+    let eye = corners.map(|corner| to_eye.transform_point3(corner));
     let toward = |at: DVec3| if view.is_perspective() { -at } else { DVec3::Z };
     let normals = normals.map(|normal| to_eye.transform_vector3(normal.as_dvec3()));
     let facing = DVec3::from_array(std::array::from_fn(|i| normals[i].dot(toward(eye[i]))));

@@ -1,4 +1,4 @@
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::borrow::Cow;
 use umbrage_plane::View;
 use umbrage_raster::Triangle;
@@ -8,6 +8,8 @@ use umbrage_scene::{Mesh, MeshError, Object, Scene};
 ///
 /// Patches are diced for the view (W78-23), meshes are borrowed.
 pub struct Soup<'a> {
+    /// What the positions of the meshes are relative to.
+    origin: DVec3,
     pieces: Vec<Piece<'a>>,
 }
 
@@ -22,8 +24,8 @@ impl<'a> Soup<'a> {
     /// The objects that cast: what pass 1 draws (R87-5).
     ///
     /// # Panics
-    /// When a mesh's indices or lengths do not fit together ([`Mesh::check`]). Vertices that are not finite only cost their
-    /// triangles, which the rasteriser skips and counts.
+    /// When a mesh's indices or lengths do not fit together ([`Mesh::check`]), or the scene's origin is not finite. Vertices
+    /// that are not finite only cost their triangles, which the rasteriser skips and counts.
     pub fn casters(scene: &'a Scene, view: &View) -> Self {
         Self::of(scene, view, |object| object.casts)
     }
@@ -31,17 +33,18 @@ impl<'a> Soup<'a> {
     /// Every object: what the camera sees.
     ///
     /// # Panics
-    /// When a mesh's indices or lengths do not fit together ([`Mesh::check`]). Vertices that are not finite only cost their
-    /// triangles, which the rasteriser skips and counts.
+    /// When a mesh's indices or lengths do not fit together ([`Mesh::check`]), or the scene's origin is not finite. Vertices
+    /// that are not finite only cost their triangles, which the rasteriser skips and counts.
     pub fn all(scene: &'a Scene, view: &View) -> Self {
         Self::of(scene, view, |_| true)
     }
 
     fn of(scene: &'a Scene, view: &View, keep: impl Fn(&Object) -> bool) -> Self {
+        let local = scene.about_origin(view);
         let mut first = 0;
         let mut pieces = Vec::new();
         for (id, object) in scene.objects.iter().enumerate().filter(|(_, object)| keep(object)) {
-            let mesh = object.shape.mesh_for(view);
+            let mesh = object.shape.mesh_for(&local);
             if let Err(fault) = mesh.check()
                 && !matches!(fault, MeshError::NotFinite { .. })
             {
@@ -51,7 +54,7 @@ impl<'a> Soup<'a> {
             pieces.push(Piece { object: id as u32, sheet: !object.solid, first, mesh });
             first += count;
         }
-        Self { pieces }
+        Self { origin: scene.origin, pieces }
     }
 
     /// Number of triangles.
@@ -64,11 +67,11 @@ impl<'a> Soup<'a> {
         self.len() == 0
     }
 
-    /// The triangles in order; a triangle's index counts from 0 over all objects.
+    /// The triangles in order, in world space; a triangle's index counts from 0 over all objects.
     pub fn triangles(&self) -> impl Iterator<Item = Triangle> + '_ {
         self.pieces.iter().flat_map(|piece| {
             piece.mesh.triangles.iter().map(|triangle| Triangle {
-                corners: triangle.map(|vertex| piece.mesh.positions[vertex as usize]),
+                corners: triangle.map(|vertex| self.world(piece.mesh.positions[vertex as usize])),
                 object: piece.object,
                 sheet: piece.sheet,
             })
@@ -82,10 +85,17 @@ impl<'a> Soup<'a> {
     }
 
     /// A triangle's world corners and their shading normals.
-    pub(crate) fn corners(&self, triangle: u32) -> ([Vec3; 3], [Vec3; 3]) {
+    pub(crate) fn corners(&self, triangle: u32) -> ([DVec3; 3], [Vec3; 3]) {
         let (piece, local) = self.find(triangle);
         let vertices = piece.mesh.triangles[local].map(|vertex| vertex as usize);
-        (vertices.map(|vertex| piece.mesh.positions[vertex]), vertices.map(|vertex| piece.mesh.normals[vertex]))
+        (
+            vertices.map(|vertex| self.world(piece.mesh.positions[vertex])),
+            vertices.map(|vertex| piece.mesh.normals[vertex]),
+        )
+    }
+
+    fn world(&self, position: Vec3) -> DVec3 {
+        self.origin + position.as_dvec3()
     }
 
     fn find(&self, triangle: u32) -> (&Piece<'a>, usize) {

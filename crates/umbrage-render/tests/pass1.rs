@@ -17,11 +17,8 @@ fn triangles() -> Vec<Triangle> {
         (Mesh::cuboid(Vec3::new(-30.0, -30.0, -50.0), Vec3::new(30.0, 30.0, -48.0)), true),
     ];
     for (object, (mesh, sheet)) in meshes.into_iter().enumerate() {
-        all.extend(mesh.triangles.iter().map(|triangle| Triangle {
-            corners: triangle.map(|vertex| mesh.positions[vertex as usize]),
-            object: object as u32,
-            sheet,
-        }));
+        let corners = |triangle: &[u32; 3]| triangle.map(|vertex| mesh.positions[vertex as usize]);
+        all.extend(mesh.triangles.iter().map(|triangle| Triangle::new(corners(triangle), object as u32, sheet)));
     }
     all
 }
@@ -110,11 +107,8 @@ fn x2_x3_tiles_and_threads_store_what_one_texel_at_a_time_stores() {
 fn a_baked_texel_is_the_receiver_s_own_plane_to_two_ulp() {
     // A floor alone: what is stored at a texel is what a receiver's tangent plane says there (the virtual sample).
     let floor = Mesh::cuboid(Vec3::new(-5000.0, -30.0, -9000.0), Vec3::new(5000.0, -10.0, -4.0));
-    let triangles: Vec<Triangle> = floor
-        .triangles
-        .iter()
-        .map(|t| Triangle { corners: t.map(|v| floor.positions[v as usize]), object: 0, sheet: false })
-        .collect();
+    let triangles: Vec<Triangle> =
+        floor.triangles.iter().map(|t| Triangle::new(t.map(|v| floor.positions[v as usize]), 0, false)).collect();
     for sampling in [Sampling::Centre, Sampling::Jittered { seed: 3 }] {
         for kind in [Kind::Axial, Kind::Screen, Kind::Radial] {
             let size = UVec2::new(96, 64);
@@ -142,11 +136,8 @@ fn at_the_middle<R: DepthRule>(view: &View, triangles: &[Triangle], rule: &R) ->
 fn c10_a_solid_before_the_near_plane_keeps_its_shadow_under_every_rule() {
     // A box wholly between the light and the near plane, and no receiver in pass 1 (T-1).
     let mesh = Mesh::cuboid(Vec3::new(-0.4, -0.4, -0.8), Vec3::new(0.4, 0.4, -0.5));
-    let triangles: Vec<Triangle> = mesh
-        .triangles
-        .iter()
-        .map(|t| Triangle { corners: t.map(|v| mesh.positions[v as usize]), object: 0, sheet: false })
-        .collect();
+    let triangles: Vec<Triangle> =
+        mesh.triangles.iter().map(|t| Triangle::new(t.map(|v| mesh.positions[v as usize]), 0, false)).collect();
     let view = View::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, 1.0, 50.0, UVec2::splat(33)).unwrap();
     let kept = (1.0, 12);
     assert_eq!(at_the_middle(&view, &triangles, &First), kept);

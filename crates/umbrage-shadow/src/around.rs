@@ -86,7 +86,7 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
             let key = key.region(point.region);
             *fraction = match self.evaluate {
                 Evaluate::Own => {
-                    let own = nearest(maps, point.position.as_dvec3() - eye);
+                    let own = nearest(maps, point.position - eye);
                     self.ask(simd, &Face { maps, own }, point, key)
                 }
                 Evaluate::Every => maps.iter().map(|map| self.within(simd, map, point, key)).fold(0.0, f32::max),

@@ -96,7 +96,15 @@ impl Slice {
         let mut lamp = Light::point("light", DVec3::Y, DVec3::ZERO, 60.0, 1.0, 2.0, UVec2::ONE)?;
         lamp.view = *light;
         let (ambient, background) = (Vec3::splat(0.2), Vec3::ZERO);
-        let scene = Scene { name: name.into(), objects, lights: vec![lamp], ambient, background, camera: *camera };
+        let scene = Scene {
+            name: name.into(),
+            origin: DVec3::ZERO,
+            objects,
+            lights: vec![lamp],
+            ambient,
+            background,
+            camera: *camera,
+        };
         Ok(Self { scene, outlines })
     }
 
@@ -160,11 +168,7 @@ pub fn cut(points: &[DVec2], reach: f64) -> Vec<DVec2> {
 pub fn tilted(normal: DVec3) -> anyhow::Result<(View, Tiled)> {
     let view = View::orthographic(DVec3::Z * 200.0, DVec3::ZERO, DVec3::Y, 8.0, 1.0, 400.0, UVec2::splat(256))?;
     let corners = [[-20.0, -20.0], [20.0, -20.0], [20.0, 20.0], [-20.0, 20.0]].map(|[x, y]| on_plane(normal, x, y));
-    let sheet = |a: usize, b: usize, c: usize| Triangle {
-        corners: [corners[a], corners[b], corners[c]],
-        object: 0,
-        sheet: true,
-    };
+    let sheet = |a: usize, b: usize, c: usize| Triangle::new([corners[a], corners[b], corners[c]], 0, true);
     Ok((view, bake(&view, [sheet(0, 1, 2), sheet(0, 2, 3)], &First, Cull::None).map))
 }
 

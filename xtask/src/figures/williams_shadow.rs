@@ -4,7 +4,7 @@ use super::spheres::{Alone, alone, dithered, faithful, interpolated, post, reduc
 use super::studio::{Set, colour_panel, error_panel, lit, of, shadow_grid, shadow_image_panel, truth_panel, value};
 use crate::figure::{Context, Figure, Made, Measure, Paper, Role};
 use crate::plot::{Axis, Plot, Series};
-use glam::{DVec2, UVec2, Vec3};
+use glam::{DVec2, DVec3, UVec2, Vec3};
 use umbrage_depth::{DepthMap, Raw, Tiled, bandlimit};
 use umbrage_oracle::metrics::{self, Grid};
 use umbrage_oracle::predict;
@@ -257,8 +257,8 @@ fn dither(cx: &Context) -> anyhow::Result<Made> {
 fn away_from_silhouettes(set: &Set, truth: &Picture) -> Vec<bool> {
     let light = set.map.view();
     let jump = 0.5 / (light.far() - light.near()) as f32;
-    let smooth = |at: Vec3| {
-        let eye = light.world_to_eye().transform_point3(at.as_dvec3());
+    let smooth = |at: DVec3| {
+        let eye = light.world_to_eye().transform_point3(at);
         let texel = light.eye_to_texel(eye).floor().as_ivec2();
         let window = TexelRect::new(texel - 2, texel + 3);
         let (low, high) = window
