@@ -1,6 +1,7 @@
 //! From scene to picture: what must not change a bit, and what lights and objects do to it.
 
 use glam::{UVec2, Vec3};
+use std::sync::Arc;
 use umbrage_bake::{advised_map_sizes, bake};
 use umbrage_depth::{First, Raw, Storage, Tiled};
 use umbrage_plane::{Bias, Sampling, View};
@@ -17,7 +18,7 @@ fn small(mut scene: Scene, pixels: u32, texels: u32) -> Scene {
     scene
 }
 
-fn map(scene: &Scene, view: &View) -> Tiled {
+fn map(scene: &Scene, view: &View) -> Arc<Tiled> {
     bake(view, Soup::casters(scene, view).triangles(), &First, Cull::None).map
 }
 
@@ -25,7 +26,7 @@ fn map(scene: &Scene, view: &View) -> Tiled {
 fn bits(picture: &Picture) -> Vec<u32> {
     let colour = picture.colour.iter().flat_map(|c| <[f32; 3]>::from(*c));
     let shadow = picture.shadow.iter().flatten().copied();
-    let place = picture.position.iter().flat_map(|p| <[f32; 3]>::from(*p));
+    let place = picture.position.iter().flat_map(|p| <[f32; 3]>::from(p.as_vec3()));
     colour.chain(shadow).chain(place).chain(picture.depth.iter().copied()).map(f32::to_bits).collect()
 }
 
@@ -153,7 +154,7 @@ fn w78_1_w78_2_two_views_of_512_with_16_bit_depth_and_a_light_at_infinity() {
     let light = &scene.lights[0].view;
     assert_eq!((scene.camera.size(), light.size()), (UVec2::splat(512), UVec2::splat(512)));
     assert!(!light.is_perspective(), "the light is at infinity");
-    let map = umbrage_depth::quantise(&Raw::from(&map(&scene, light)), 16, false);
+    let map = umbrage_depth::quantise(&Raw::copy_of(&map(&scene, light)), 16, false);
     let mut codes = 0;
     for depth in map.depths().iter().filter(|depth| depth.is_finite()) {
         let code = f64::from(*depth) * 65_535.0;

@@ -98,6 +98,9 @@ impl Default for Plan {
 }
 
 /// Everything that is known to go wrong with a light of a scene, in a fixed order. Lights that do not cast have nothing wrong.
+///
+/// # Panics
+/// When the scene's origin is not finite.
 pub fn diagnose(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
     if !light.casts {
         return Vec::new();
@@ -131,13 +134,13 @@ pub fn diagnose(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
             found.push(Diagnostic::OpenSolid { object: object.name.clone() });
         }
     }
-    found.extend(scene.objects.iter().filter_map(|object| too_thin(object, light, plan)));
+    found.extend(scene.objects.iter().filter_map(|object| too_thin(scene, object, light, plan)));
     found
 }
 
 /// The largest axial distance of anything that receives, inside the light's range.
 fn farthest_receiver(scene: &Scene, light: &View) -> Option<f64> {
-    let hulls = scene.objects.iter().filter(|object| object.receives).flat_map(|object| object.shape.hull());
-    let distances = hulls.map(|at| -light.world_to_eye().transform_point3(at.as_dvec3()).z);
+    let hulls = scene.objects.iter().filter(|object| object.receives).flat_map(|object| scene.hull(object));
+    let distances = hulls.map(|at| -light.world_to_eye().transform_point3(at).z);
     distances.filter(|zeta| *zeta > light.near()).map(|zeta| zeta.min(light.far())).reduce(f64::max)
 }

@@ -130,16 +130,16 @@ impl Gather<'_> {
         let half = f64::from(self.axis) * 0.5;
         let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| {
             let corner = centre + DVec2::new(x, y) * half;
-            self.view.world_at(corner, facet.plane.at(corner).clamp(key - reach, key + reach)).as_vec3()
+            self.view.world_at(corner, facet.plane.at(corner).clamp(key - reach, key + reach))
         });
         let position = self.view.world_at(centre, key);
         let (triangle, normals) = self.soup.corners(facet.triangle);
         let side = if front { 1.0 } else { -1.0 };
-        let edge = [triangle[1] - triangle[0], triangle[2] - triangle[0]].map(DVec3::from);
-        let normal = edge[0].cross(edge[1]).normalize_or(DVec3::Z) * side;
-        let position = position.as_vec3();
+        let [a, b, c] = triangle;
+        let normal = (b - a).cross(c - a).normalize_or(DVec3::Z) * side;
+        let point = SurfacePoint { object: facet.object, ..SurfacePoint::at(position, normal.as_vec3()) };
         Region {
-            point: SurfacePoint { position, normal: normal.as_vec3(), corners, region: 0, object: facet.object },
+            point: point.with_corners(corners),
             shading_normal: interpolate(position, triangle, normals) * side as f32,
             share: 0.0,
             pixel: 0,
@@ -163,7 +163,7 @@ impl Surface {
 }
 
 /// The shading normal at a point of a triangle's plane; barycentric weights are clamped to the triangle.
-fn interpolate(at: Vec3, [a, b, c]: [Vec3; 3], [na, nb, nc]: [Vec3; 3]) -> Vec3 {
+fn interpolate(at: DVec3, [a, b, c]: [DVec3; 3], [na, nb, nc]: [Vec3; 3]) -> Vec3 {
     let (ab, ac, ap) = (b - a, c - a, at - a);
     let (d00, d01, d11) = (ab.dot(ab), ab.dot(ac), ac.dot(ac));
     let (d20, d21) = (ap.dot(ab), ap.dot(ac));
@@ -173,5 +173,5 @@ fn interpolate(at: Vec3, [a, b, c]: [Vec3; 3], [na, nb, nc]: [Vec3; 3]) -> Vec3 
     }
     let v = ((d11 * d20 - d01 * d21) / area).clamp(0.0, 1.0);
     let w = ((d00 * d21 - d01 * d20) / area).clamp(0.0, 1.0 - v);
-    (na * (1.0 - v - w) + nb * v + nc * w).normalize_or(na)
+    (na.as_dvec3() * (1.0 - v - w) + nb.as_dvec3() * v + nc.as_dvec3() * w).as_vec3().normalize_or(na)
 }

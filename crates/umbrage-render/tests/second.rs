@@ -207,7 +207,7 @@ fn wm94_11_shadows_may_be_given_the_interpolated_normal() {
         let heard = Heard(Mutex::new(Vec::new()));
         let seen = picture(&scene, &[&heard], &Frame { smooth, ..Frame::CENTRES });
         let on_ball = (0..seen.object.len()).filter(|&i| seen.object[i] == 0);
-        let radial: Vec<Vec3> = on_ball.map(|i| (seen.position[i] - centre).normalize()).collect();
+        let radial: Vec<Vec3> = on_ball.map(|i| (seen.position[i].as_vec3() - centre).normalize()).collect();
         let normals = heard.0.into_inner().unwrap();
         // Tiles come in any order: compare the largest angle to the nearest radial direction.
         let worst = |normal: &Vec3| radial.iter().map(|way| way.dot(*normal)).fold(-1.0, f32::max);

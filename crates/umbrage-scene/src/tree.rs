@@ -188,6 +188,23 @@ impl Tree {
         Self::Colour(Colour(rgb))
     }
 
+    /// The same light in a world that is `factor` times as large: distances are multiplied. Recipes of shadow nodes are text,
+    /// and stay as they are.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        let all = |nodes: Vec<Self>| nodes.into_iter().map(|node| node.scaled(factor)).collect();
+        match self {
+            Self::Falloff(node) => {
+                let reference = (f64::from(node.reference) * factor) as f32;
+                Self::Falloff(Falloff { reference, ..node })
+            }
+            Self::Product(nodes) => Self::Product(all(nodes)),
+            Self::Sum(nodes) => Self::Sum(all(nodes)),
+            Self::Mix(nodes) => Self::Mix(Box::new(nodes.map(|node| node.scaled(factor)))),
+            other @ (Self::Colour(_) | Self::Cone(_) | Self::Distribution(_) | Self::Shadow { .. }) => other,
+        }
+    }
+
     /// The recipe of the first shadow node; `None` when the light casts no shadow.
     pub fn recipe(&self) -> Option<&str> {
         match self {

@@ -150,7 +150,7 @@ fn t_17_regions_that_reach_behind_the_light_get_footprints_of_their_front() {
     let shadow = ShadowMap { filter: presets::reeves87(), map };
     // A board from below the light to far above it.
     let corners = [(-1.0, -8.0), (1.0, -8.0), (1.0, 30.0), (-1.0, 30.0)].map(|(x, y)| Vec3::new(x, y, -2.0));
-    let region = SurfacePoint { corners, ..SurfacePoint::at(Vec3::new(0.0, -5.0, -2.0), Vec3::Z) };
+    let region = SurfacePoint::at(Vec3::new(0.0, -5.0, -2.0), Vec3::Z).with_corners(corners);
     let footprint = view.receiver(&region).unwrap().footprint;
     assert!(footprint.centre.is_finite() && footprint.half.max_element() <= 16.0);
     assert!((footprint.centre - Vec2::new(32.0, 19.2)).abs().max_element() <= 16.0, "{footprint:?}");

@@ -112,7 +112,7 @@ fn two_orders(cx: &Context) -> anyhow::Result<Made> {
         .map(|(x, y)| view.world_at((centre + Vec2::new(x, y)).as_dvec2(), -1.0 / f64::from(z)).as_vec3());
     let position = view.world_at(centre.as_dvec2(), -1.0 / f64::from(z)).as_vec3();
     let normal = view.toward_eye(position.as_dvec3()).as_vec3();
-    let region = SurfacePoint { corners, ..SurfacePoint::at(position, normal) };
+    let region = SurfacePoint::at(position, normal).with_corners(corners);
     let ask = |recipe: &str| -> anyhow::Result<f64> {
         let recipe: umbrage_render::Recipe = recipe.parse()?;
         Ok(f64::from(recipe.bind(&map, cx.storage).fraction(&region, Key::new(cx.seed, 0, 0))))

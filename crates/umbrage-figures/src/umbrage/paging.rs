@@ -66,7 +66,7 @@ fn faults(path: &std::path::Path, pages: usize, order: &[glam::IVec2]) -> anyhow
 fn orders(seen: &Picture, view: &View, key: Key) -> [Vec<glam::IVec2>; 3] {
     let width = seen.size.x as usize;
     let texel = |i: usize| {
-        let eye = view.world_to_eye().transform_point3(seen.position[i].as_dvec3());
+        let eye = view.world_to_eye().transform_point3(seen.position[i]);
         view.eye_to_texel(eye).floor().as_ivec2()
     };
     let lines: Vec<usize> = (0..seen.depth.len()).filter(|&i| seen.depth[i].is_finite()).collect();

@@ -34,7 +34,7 @@ pub const F1: Figure = Figure {
 /// Places of the camera's samples and whether each is dark.
 fn samples(picture: &Picture) -> impl Iterator<Item = (DVec2, bool)> + '_ {
     let seen = (0..picture.object.len()).filter(|&i| picture.object[i] != NOTHING);
-    seen.map(|i| (picture.position[i].as_dvec3().truncate(), picture.shadow[0][i] >= 0.5))
+    seen.map(|i| (picture.position[i].truncate(), picture.shadow[0][i] >= 0.5))
 }
 
 /// Those samples that are dark, or those that are not.

@@ -49,7 +49,7 @@ fn muddle() -> anyhow::Result<Slice> {
 fn slice_diagram(cx: &Context, title: &str, slice: &Slice, map: &Arc<Tiled>) -> Diagram {
     let by_map = slice.seen(cx, &*bind(presets::wang_molnar94(), map, cx.storage));
     let dark = (0..by_map.object.len()).filter(|&i| by_map.object[i] != NOTHING && by_map.shadow[0][i] >= 0.5);
-    let dark: Vec<DVec2> = dark.map(|i| by_map.position[i].as_dvec3().truncate()).collect();
+    let dark: Vec<DVec2> = dark.map(|i| by_map.position[i].truncate()).collect();
     slice
         .outlined(Diagram::new(title, DVec2::new(-52.0, -8.0), DVec2::new(58.0, 38.0)))
         .named(Mark::Line(4.5), Ink::Faint, &cut(&stored(map), 0.9), "second surface from the light")
@@ -85,7 +85,7 @@ fn union_scene() -> anyhow::Result<Scene> {
         UVec2::splat(512),
     )?;
     let (ambient, background) = (Vec3::splat(0.15), Vec3::new(0.02, 0.02, 0.03));
-    Ok(Scene { name: "union".into(), objects, lights: vec![lamp], ambient, background, camera })
+    Ok(Scene { name: "union".into(), origin: DVec3::ZERO, objects, lights: vec![lamp], ambient, background, camera })
 }
 
 /// Pixels within three of one that shows another object: where solids meet, too, a texel keeps what its neighbour does not.

@@ -201,7 +201,7 @@ fn balls(count: u32, pixels: u32) -> anyhow::Result<Scene> {
     let mut sun = Light::directional("sun", DVec3::new(-0.5, 0.4, 1.0), DVec3::ZERO, 60.0, 10.0, 260.0, size)?;
     sun.view = sun.view.with_kind(Kind::Screen);
     let (ambient, background) = (Vec3::splat(0.1), Vec3::ZERO);
-    Ok(Scene { name: "balls".into(), objects, lights: vec![sun], ambient, background, camera })
+    Ok(Scene { name: "balls".into(), origin: DVec3::ZERO, objects, lights: vec![sun], ambient, background, camera })
 }
 
 fn cost(cx: &Context) -> anyhow::Result<Made> {
@@ -307,7 +307,7 @@ fn plane(cx: &Context) -> anyhow::Result<Made> {
     let mapped = stage.shoot(cx, RECIPE, &Frame::default())?;
     let truth = stage.truth(cx, &Frame::default());
     // Outside the lamp's cone it is dark anyway, and the projection does not know of cones.
-    let lit = |i: usize| scene.lights[0].incident(truth.position[i].as_dvec3()).1 != Vec3::ZERO;
+    let lit = |i: usize| scene.lights[0].incident(truth.position[i]).1 != Vec3::ZERO;
     let on_slab = of(&truth, |id| id == slab);
     let mask: Vec<bool> = (0..on_slab.len()).map(|i| on_slab[i] && lit(i)).collect();
     let elsewhere = of(&truth, |id| id != slab);

@@ -30,6 +30,7 @@ fn covered_spot(rules: Rules) -> anyhow::Result<Scene> {
     let grey = Material::matt(Vec3::splat(0.7));
     Ok(Scene {
         name: format!("covered-spot {rules:?}"),
+        origin: DVec3::ZERO,
         objects: vec![
             Object::solid("floor", Mesh::cuboid(Vec3::new(-60.0, -4.0, -60.0), Vec3::new(60.0, 0.0, 60.0)), grey),
             Object::solid("board", Mesh::cuboid(Vec3::new(2.0, 20.0, -40.0), Vec3::new(40.0, 22.0, 40.0)), grey),

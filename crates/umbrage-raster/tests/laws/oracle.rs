@@ -15,7 +15,7 @@ pub fn texel_view(size: UVec2, sampling: Sampling) -> View {
 
 /// A solid triangle of object 0.
 pub fn solid(corners: [Vec3; 3]) -> Triangle {
-    Triangle { corners, object: 0, sheet: false }
+    Triangle::new(corners, 0, false)
 }
 
 /// Bins over the whole view, nothing culled.

@@ -200,7 +200,9 @@ fn far_depth(view: &View) -> f32 {
 ///
 /// It takes homogeneous points; divide by w afterwards ([`transform`]).
 pub fn observer_to_light(observer: &View, light: &View) -> DMat4 {
-    light.world_to_screen() * observer.world_to_screen().inverse()
+    // From eye to eye first: far from the world's origin the two places cancel there, before anything is projected.
+    let eye_to_eye = light.world_to_eye() * observer.eye_to_world();
+    light.eye_to_screen() * eye_to_eye * observer.eye_to_screen().inverse()
 }
 
 /// Subtracts `bias` (units of z_s) from the z that comes out, inside the matrix: row 3 less bias times row 4 (W78-11, D-8, V39).
