@@ -9,6 +9,7 @@ use umbrage_plane::{Decode, Facet};
 /// or shared edges and sheets would store their own depth and shadow themselves (W92-4, T-2). Whether two coincide is
 /// asked of the nearest alone, in a second pass; merging them as they arrive would depend on their order (V54).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Midpoint {
     /// Where between the two: 0 excluded, ½ is Woo's, 1 is the second surface.
     pub ratio: f32,
@@ -30,6 +31,8 @@ pub enum Same {
     /// several depths (W92-3). An object that folds over itself loses shadow between its own folds.
     Surface,
 }
+
+umbrage_plane::builders!([] Midpoint { with_ratio ratio: f32, with_merge merge: f32, with_same same: Same });
 
 impl Default for Midpoint {
     fn default() -> Self {

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, IVec2, UVec2, Vec3};
 use umbrage_bake::{bake, bake_by_normals, bake_multi, bake_tags};
-use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Midpoint, Same, Second, Tiled};
+use umbrage_depth::{BackFace, DepthMap, First, Midpoint, Reduction, Same, Second, Tiled};
 use umbrage_plane::{Sampling, SurfacePoint, TexelRect, View};
 use umbrage_raster::Cull;
 use umbrage_render::{Frame, Recipe, Soup, picture};
@@ -184,7 +184,7 @@ fn w92_11_memory_does_not_grow_with_the_number_of_objects() {
     }
     assert!(bytes(50, "reeves87,stored=deep,epsilon=0") > 10 * bytes(2, "reeves87,stored=deep,epsilon=0"));
     assert_eq!(
-        size_of::<<Midpoint as DepthRule>::Cell>(),
+        size_of::<<Midpoint as Reduction>::Cell>(),
         16,
         "two keys and what tells surfaces apart, while a map is drawn"
     );

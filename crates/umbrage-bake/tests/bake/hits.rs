@@ -43,5 +43,5 @@ fn hits_at_the_fragments_distances_store_the_baked_bits_under_every_rule() {
     law("second", &Second);
     law("back face", &BackFace);
     law("midpoint", &Midpoint::default());
-    law("midpoint by object", &Midpoint { same: Same::Object, ..Midpoint::default() });
+    law("midpoint by object", &Midpoint::default().with_same(Same::Object));
 }
