@@ -108,6 +108,30 @@ from!(Bbox, Bbox);
 from!(Tiled, Tiled);
 from!(DeepMap, Deep);
 
+/// Conversions between storages: all of a map's depths, kept otherwise.
+macro_rules! convert {
+    ($from:ty, $to:ty) => {
+        impl From<&$from> for $to {
+            fn from(map: &$from) -> Self {
+                Self::copy_of(map)
+            }
+        }
+    };
+}
+
+convert!(Bbox, Raw);
+convert!(Tiled, Raw);
+convert!(Raw, Bbox);
+convert!(Raw, Tiled);
+convert!(Bbox, Tiled);
+
+impl From<&Tiled> for Bbox {
+    fn from(map: &Tiled) -> Self {
+        // No texel outside the tiles needs a look.
+        Self::within(map, map.kept())
+    }
+}
+
 impl From<&Self> for Map {
     /// The same map, shared.
     fn from(map: &Self) -> Self {

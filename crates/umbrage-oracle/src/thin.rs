@@ -1,7 +1,8 @@
-use crate::predict::{Stored, acne_free_bias};
+use crate::predict::{acne_free_bias, slack};
 use crate::{Body, Diagnostic, Face, Geometry, Plan};
 use glam::{DVec2, DVec3, Vec3};
 use std::collections::BTreeMap;
+use umbrage_depth::Stored;
 use umbrage_plane::View;
 use umbrage_scene::{Light, Mesh, Object, Scene};
 
@@ -38,7 +39,7 @@ pub(crate) fn too_thin(scene: &Scene, object: &Object, light: &Light, plan: &Pla
         let steps = view.texel_world(zeta) * slope;
         let step = acne_free_bias(steps.x, steps.y, plan.filter_half);
         let thickness = back.t * axial;
-        let excess = step / (thickness - plan.stored.slack(thickness));
+        let excess = step / (thickness - slack(plan.stored, thickness));
         if excess > worst.map_or(1.0, |worst| worst.0) {
             worst = Some((excess, thickness, step));
         }

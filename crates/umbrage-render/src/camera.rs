@@ -1,7 +1,7 @@
 use crate::Soup;
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
 use umbrage_plane::{Facet, Facing, SurfacePoint, View};
-use umbrage_raster::{Bins, TILE, each_fragment};
+use umbrage_raster::{BIN, Bins, each_fragment};
 
 /// A piece of one surface within one pixel: what is shaded once (R87-8).
 pub(crate) struct Region {
@@ -43,9 +43,9 @@ pub(crate) struct Gather<'a> {
 impl Gather<'_> {
     /// The regions of a tile in pixel order, the number of fragments met, and how many of them were nearer than all before.
     pub fn tile(&self, tile: UVec2) -> (Vec<Region>, u64, u64) {
-        let origin = (tile * TILE).as_ivec2();
+        let origin = (tile * BIN).as_ivec2();
         let mut facets: Vec<Facet> = Vec::new();
-        let mut samples = vec![NONE; (TILE * TILE) as usize];
+        let mut samples = vec![NONE; (BIN * BIN) as usize];
         // What is nearer than the camera's near plane is not seen.
         let nearest = self.view.key(self.view.near()) as f32;
         let (mut fragments, mut passing) = (0, 0);
@@ -66,7 +66,7 @@ impl Gather<'_> {
         });
         let mut regions = Vec::new();
         if !facets.is_empty() {
-            let across = TILE / self.axis;
+            let across = BIN / self.axis;
             for pixel in 0..across * across {
                 let corner = UVec2::new(pixel % across, pixel / across) * self.axis;
                 self.pixel(origin, corner, pixel, &samples, &facets, &mut regions);
@@ -87,7 +87,7 @@ impl Gather<'_> {
         let mut groups: Vec<(Surface, Vec<(DVec2, u32)>)> = Vec::new();
         for i in 0..self.axis * self.axis {
             let at = corner + UVec2::new(i % self.axis, i / self.axis);
-            let sample = samples[(at.y * TILE + at.x) as usize];
+            let sample = samples[(at.y * BIN + at.x) as usize];
             let Some(facet) = facets.get(sample.facet as usize) else { continue };
             let position = self.view.sampling().position(origin + at.as_ivec2());
             let surface = Surface::of(self.soup, facet);

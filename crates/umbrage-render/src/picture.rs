@@ -4,7 +4,7 @@ use crate::shade::shade;
 use glam::{DVec3, UVec2, Vec3};
 use rayon::prelude::*;
 use umbrage_plane::{Kind, Sampling, SurfacePoint, TexelRect, View};
-use umbrage_raster::{Bins, Cull, TILE};
+use umbrage_raster::{BIN, Bins, Cull};
 use umbrage_sample::Key;
 use umbrage_scene::Scene;
 use umbrage_shadow::Shadow;
@@ -108,12 +108,12 @@ pub fn picture(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame) -> Picture
         .into_par_iter()
         .map(|index| {
             let tile = UVec2::new(index % tiles.x, index / tiles.x);
-            (tile * (TILE / axis), finish_tile(scene, shadows, frame, &gather, tile))
+            (tile * (BIN / axis), finish_tile(scene, shadows, frame, &gather, tile))
         })
         .collect();
     let mut picture = Picture::empty(scene, size);
     for (origin, tile) in done {
-        picture.place(origin, TILE / axis, &tile);
+        picture.place(origin, BIN / axis, &tile);
     }
     picture
 }

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, IVec2, UVec2, Vec3};
 use umbrage_bake::{bake, bake_by_normals, bake_multi, bake_tags};
-use umbrage_depth::{BackFace, DepthMap, First, Midpoint, Reduction, Same, Second, Tiled};
+use umbrage_depth::{BackFace, DepthMap, First, Midpoint, Reduction, SameSurface, Second, Tiled};
 use umbrage_plane::{Sampling, SurfacePoint, TexelRect, View};
 use umbrage_raster::Cull;
 use umbrage_render::{Frame, Recipe, Soup, picture};
@@ -129,7 +129,7 @@ fn w92_3_texels_sampled_at_several_places_keep_the_two_nearest_surfaces_over_the
         assert_eq!(multi.depth(texel), nearest, "{texel}");
     }
     // Midpoints of whole texels lie behind every place of the nearest surface: no acne, whatever the texel.
-    let rule = Midpoint::default().with_same(Same::Surface);
+    let rule = Midpoint::default().with_same(SameSurface::Surface);
     let middle = bake_multi(&view, soup.triangles(), &rule, Cull::None, axis).unwrap().map;
     let by_depth = bake_multi(&view, soup.triangles(), &Midpoint::default(), Cull::None, axis).unwrap().map;
     let on_surface = |map: &Tiled| {

@@ -115,7 +115,7 @@ impl Scene {
         let relevant = self.relevant_casters(&light.view);
         let points = relevant.iter().flat_map(|&id| self.hull(&self.objects[id as usize]));
         let ball = ball(points).ok_or(FrameError::Nothing)?;
-        Ok(Light { view: frame(&light.view, ball)?, ..light.clone() })
+        Ok(Light { view: fit(&light.view, ball)?, ..light.clone() })
     }
 }
 
@@ -127,7 +127,7 @@ fn ball(points: impl Iterator<Item = DVec3>) -> Option<Ball> {
 ///
 /// # Errors
 /// [`FrameError::Inside`] when a light in perspective stands within the ball; [`FrameError::View`] for a ball without extent.
-pub fn frame(light: &View, ball: Ball) -> Result<View, FrameError> {
+pub fn fit(light: &View, ball: Ball) -> Result<View, FrameError> {
     let size: UVec2 = light.size();
     let up = if light.ahead().y.abs() < 0.999 { DVec3::Y } else { DVec3::Z };
     let found = if light.is_perspective() {

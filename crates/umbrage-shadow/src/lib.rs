@@ -36,11 +36,11 @@ mod probe;
 mod query;
 mod surfaces;
 
-pub use depths::{AnyDepth, Biased, Cone, OnPlane, Radius, ReceiverDepth, Spread};
+pub use depths::{AnyDepth, BiasCone, Biased, OnPlane, Radius, ReceiverDepth, Spread};
 pub use fearless_simd::Simd;
 pub use filters::{
-    Conditional, Extent, Falloff, IntegerFirst, Opacity, Ordinary, Pcf, Soft, Softness, VirtualWhen, Williams, factor,
-    integer_first, williams,
+    Conditional, FilteredDepth, IntegerFirst, MapRadius, OccluderFalloff, Opacity, Pcf, Soft, Softness, VirtualWhen,
+    Williams, integer_first, williams,
 };
 pub use lights::{Around, AroundError, Evaluate, LatLong, LatLongError, Shadow, ShadowMap, Tags, Unshadowed};
 pub use mean::weighted_mean;

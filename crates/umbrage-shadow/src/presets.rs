@@ -1,7 +1,7 @@
 //! Each paper as one short choice of parts.
 
 use crate::williams::Williams;
-use crate::{Biased, Conditional, Falloff, Pcf, Soft};
+use crate::{Biased, Conditional, OccluderFalloff, Pcf, Soft};
 use umbrage_plane::Bias;
 use umbrage_sample::{Centre, Density, Disc, Jittered};
 
@@ -47,5 +47,5 @@ pub fn burley() -> Soft {
 /// Fernando 2005, as Burley describes it: search taps spread evenly, their plain mean, a constant bias (B06-9).
 pub fn fernando(bias: Bias) -> Soft<Biased> {
     let search = Disc::default().with_density(Density::Uniform);
-    burley().with_search(search).with_falloff(Falloff::Flat).with_depth(Biased::constant(bias))
+    burley().with_search(search).with_falloff(OccluderFalloff::Flat).with_depth(Biased::constant(bias))
 }

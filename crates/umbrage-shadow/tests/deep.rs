@@ -6,7 +6,7 @@ use umbrage_depth::{DepthMap, Step, Translucent};
 use umbrage_plane::{Bias, DepthRange, Footprint, Kind, Receiver, Rules, SurfacePoint, TexelRect, View, cube_views};
 use umbrage_sample::{Centre, EveryTexel, Key};
 use umbrage_shadow::{
-    Around, Biased, Counters, Extent, Filter, IntegerFirst, OnPlane, Pcf, Shadow, ShadowMap, Softness, VirtualWhen,
+    Around, Biased, Counters, Filter, IntegerFirst, MapRadius, OnPlane, Pcf, Shadow, ShadowMap, Softness, VirtualWhen,
     presets,
 };
 
@@ -94,7 +94,7 @@ fn exact() -> Biased {
 fn v56_b06_11_filters_average_what_passes_and_never_cull() {
     let map = v56(0);
     let plane = OnPlane::default();
-    let narrow = Softness::Between { min: Extent::Texels(0.5), max: Extent::Texels(2.0) };
+    let narrow = Softness::Between { min: MapRadius::Texels(0.5), max: MapRadius::Texels(2.0) };
     let soft = presets::fernando(Bias::ZERO).with_softness(narrow);
     for (depth, dark) in [(1.0, 0.0), (2.0, 0.0), (2.5, 0.4), (5.0, 0.4), (5f32.next_up(), 1.0), (50.0, 1.0)] {
         let receiver = at(&map.view, depth, Vec2::splat(16.3), 1.5);
@@ -132,7 +132,7 @@ fn v56_b06_11_filters_average_what_passes_and_never_cull() {
 #[test]
 fn t_19_occluders_are_found_by_the_nearest_surface_not_by_the_first_opaque_one() {
     // Burley's factor of a receiver at 10 is .8 for an occluder at 2 and .5 for one at 5: radii of 8 and of 5 texels of 10.
-    let softness = Softness::Between { min: Extent::Texels(0.0), max: Extent::Texels(8.0) };
+    let softness = Softness::Between { min: MapRadius::Texels(0.0), max: MapRadius::Texels(8.0) };
     let mut soft = presets::fernando(Bias::ZERO).with_softness(softness);
     soft.search.num_samples = 1024;
     soft.blur.num_samples = 4096;

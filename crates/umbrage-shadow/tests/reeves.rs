@@ -5,7 +5,7 @@ use umbrage_depth::{Raw, Tiled};
 use umbrage_plane::{Bias, Footprint, Kind, Receiver, Rules, SurfacePoint, View, Where};
 use umbrage_sample::{EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Uniform};
 use umbrage_shadow::as_printed::{Counts, FootprintConvention, Listing, RandRange, TextureRect, counts, sample_shadow};
-use umbrage_shadow::{Biased, Counters, Filter, OnPlane, Ordinary, Pcf, Shadow, ShadowMap, Spread, presets};
+use umbrage_shadow::{Biased, Counters, Filter, FilteredDepth, OnPlane, Pcf, Shadow, ShadowMap, Spread, presets};
 
 const KEY: Key = Key::new(7, 0, 0);
 
@@ -48,7 +48,7 @@ fn v01_figure_2_ordinary_against_percentage_closer_r87_9_r87_10() {
         .with_res_factor(1.0)
         .with_min_size(0.0);
     assert!((fraction(exhaustive, map.clone(), &region, KEY) - 5.0 / 9.0).abs() < 1e-6);
-    let ordinary = Ordinary::default().with_pattern(EveryTexel).with_bias(Bias::ZERO).with_res_factor(1.0);
+    let ordinary = FilteredDepth::default().with_pattern(EveryTexel).with_bias(Bias::ZERO).with_res_factor(1.0);
     assert_eq!(fraction(ordinary, map, &region, KEY), 1.0);
 }
 

@@ -1,6 +1,6 @@
 //! Laws of places: outside the map, outside the cone, nothing stored, everything stored.
 
-use super::{Found, KEY, Subject, check};
+use super::subject::{Found, KEY, Subject, check};
 use glam::{DVec3, UVec2, Vec2};
 use umbrage_depth::{Map, Raw};
 use umbrage_plane::{Rules, SurfacePoint, View};

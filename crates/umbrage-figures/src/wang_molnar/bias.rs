@@ -5,8 +5,8 @@ use crate::figure::{Context, Figure, Paper};
 use crate::stage::slices::{self, Slice, rectangle, stored};
 use glam::{DVec2, DVec3, Vec3};
 use std::sync::Arc;
-use umbrage_depth::{DepthMap, First, Tiled};
-use umbrage_oracle::predict::{self, Stored};
+use umbrage_depth::{DepthMap, First, Stored, Tiled};
+use umbrage_oracle::predict;
 use umbrage_oracle::{Geometry, RayCast};
 use umbrage_plane::{Bias, SurfacePoint};
 use umbrage_render::bind;
@@ -102,7 +102,7 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
             needed - 0.25,
             needed + 0.25,
         ));
-        let wanted = predict::contact_gap(least.0, THICK, elevation, Stored::First);
+        let wanted = predict::expected_contact_gap(least.0, THICK, elevation, Stored::First);
         measures.push(Measure::within(
             &format!("{name}: gap under that bias (D-10: {wanted:.2})"),
             least.1.1,
@@ -126,7 +126,8 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         ]);
     }
     let predicted = (0..=48).map(|i| f64::from(i) * 0.25);
-    let predicted = predicted.map(|bias| (bias, predict::contact_gap(bias, THICK, elevation, Stored::First))).collect();
+    let predicted =
+        predicted.map(|bias| (bias, predict::expected_contact_gap(bias, THICK, elevation, Stored::First))).collect();
     let plot = |title, y| Plot::new(title, Axis::linear("bias, world units"), Axis::linear(y));
     let acne = acne.into_iter().fold(plot("False shadow on the floor", "share in false shadow"), Plot::add);
     let gaps = gaps.into_iter().fold(

@@ -48,7 +48,7 @@ fn d16_ext_1_penumbra_of_a_disc() {
     let geometry = half_plane();
     let radius = 0.5;
     // Light 10 above the floor, card 8 below the light: the penumbra is 2·.5·2/8 = .25 wide.
-    let width = predict::penumbra_width(2.0 * radius, 8.0, 10.0);
+    let width = predict::expected_penumbra_width(2.0 * radius, 8.0, 10.0);
     assert_eq!(width, 0.25);
     let share_beyond = |offset: f64| (offset.acos() - offset * (1.0 - offset * offset).sqrt()) / std::f64::consts::PI;
     for light in
@@ -196,7 +196,7 @@ fn d16_v65_disc_edge_is_what_rays_find() {
     let geometry = half_plane();
     let light = RayCast::new(&geometry, &lamp(Rules::OPEN));
     let truth = AreaLight::new(light, 0.5).with_samples(4096);
-    let width = predict::penumbra_width(1.0, 8.0, 10.0);
+    let width = predict::expected_penumbra_width(1.0, 8.0, 10.0);
     let profile = profile_on_surface(&truth, &on_floor(0.0), Vec3::NEG_X, width as f32, 401, KEY);
     let ten_to_ninety = profile.width().unwrap();
     assert!((ten_to_ninety / (predict::DISC_EDGE_10_90 * width) - 1.0).abs() < 0.01, "{ten_to_ninety}");

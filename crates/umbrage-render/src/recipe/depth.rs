@@ -3,7 +3,7 @@
 use super::values::{bias_range, number, one_of, share};
 use super::{RecipeError, Set};
 use umbrage_plane::Bias;
-use umbrage_shadow::{AnyDepth, Biased, Cone, OnPlane, Radius, Spread};
+use umbrage_shadow::{AnyDepth, BiasCone, Biased, OnPlane, Radius, Spread};
 
 /// Which depth is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +26,7 @@ pub struct Depth {
 
 impl Depth {
     pub fn new(choice: Choice, biased: Biased) -> Self {
-        let Cone { slope, radius, .. } = Cone::default();
+        let BiasCone { slope, radius, .. } = BiasCone::default();
         Self { choice, biased, slope, radius, slack: 0.0, reach: f32::INFINITY }
     }
 
@@ -43,9 +43,9 @@ impl Depth {
         OnPlane::default().with_bias(self.biased.low).with_slack(self.slack).with_reach(self.reach)
     }
 
-    pub fn cone(&self) -> Cone {
+    pub fn cone(&self) -> BiasCone {
         let base = if let Bias::World(base) = self.biased.low { base } else { 0.0 };
-        Cone::default().with_base(base).with_slope(self.slope).with_radius(self.radius)
+        BiasCone::default().with_base(base).with_slope(self.slope).with_radius(self.radius)
     }
 
     pub fn set(&mut self, field: &str, value: &str) -> Set {

@@ -15,7 +15,7 @@ use umbrage_depth::{Map, Storage};
 use umbrage_plane::{Bias, View};
 use umbrage_sample::EveryTexel;
 use umbrage_scene::Scene;
-use umbrage_shadow::{Filter, Ordinary, Shadow, ShadowMap, Williams, presets};
+use umbrage_shadow::{Filter, FilteredDepth, Shadow, ShadowMap, Williams, presets};
 
 /// Puts a filter over a map in the storage that is asked for: where types end and the one dynamic seam begins.
 pub fn bind<F: Filter + 'static>(filter: F, map: impl Into<Map>, storage: Storage) -> Box<dyn Shadow> {
@@ -111,7 +111,7 @@ enum Method {
     Reeves(Reeves),
     WangMolnar(WangMolnar),
     Burley(Burley),
-    Ordinary(Ordinary),
+    Ordinary(FilteredDepth),
 }
 
 /// Whether a field is known; its value is kept then.
@@ -133,7 +133,8 @@ impl FromStr for Recipe {
             "burley" => (Rule::First, Method::Burley(Burley::cone())),
             "fernando" => (Rule::First, Method::Burley(Burley::fernando())),
             "ordinary" => {
-                let ordinary = Ordinary::default().with_pattern(EveryTexel).with_bias(Bias::ZERO).with_res_factor(1.0);
+                let ordinary =
+                    FilteredDepth::default().with_pattern(EveryTexel).with_bias(Bias::ZERO).with_res_factor(1.0);
                 (Rule::First, Method::Ordinary(ordinary))
             }
             _ => return Err(RecipeError::value("recipe", name, PRESETS)),
@@ -205,7 +206,7 @@ impl Method {
     }
 }
 
-fn set_ordinary(ordinary: &mut Ordinary, field: &str, value: &str) -> Set {
+fn set_ordinary(ordinary: &mut FilteredDepth, field: &str, value: &str) -> Set {
     match field {
         "bias" => ordinary.bias = values::bias(field, value)?,
         "res-factor" => ordinary.res_factor = values::number(field, value)?,
@@ -220,7 +221,7 @@ mod tests {
     use depth::{Choice, Depth};
     use umbrage_sample::Jittered;
     use umbrage_shadow::williams::{Dither, DitherLaw, Guard, Lookup};
-    use umbrage_shadow::{Biased, Extent, Opacity, Pcf, Radius, Softness, Spread};
+    use umbrage_shadow::{Biased, MapRadius, Opacity, Pcf, Radius, Softness, Spread};
 
     fn reeves(text: &str) -> Reeves {
         let Method::Reeves(reeves) = text.parse::<Recipe>().unwrap().method else { panic!("{text}") };
@@ -287,7 +288,7 @@ mod tests {
         assert_eq!((mixed.stored.rule, mixed.stored.midpoint.ratio), (Rule::Midpoint, 0.25));
         let Method::Burley(burley) = mixed.method else { panic!("burley") };
         assert_eq!((burley.depth.choice, burley.depth.slope), (Choice::Cone, 1.0));
-        assert_eq!(reeves("woo92,depth=cone,pattern=disc").depth.cone(), umbrage_shadow::Cone::default());
+        assert_eq!(reeves("woo92,depth=cone,pattern=disc").depth.cone(), umbrage_shadow::BiasCone::default());
     }
 
     #[test]
@@ -308,7 +309,7 @@ mod tests {
         let all = "burley,min=1w,max=2%,search=16,blur=64,rotate=off,half-offset=on,rescue=on,falloff=smooth,shape=2,opacity=0.9..0.2,opacity-shape=0.5,fade=30,bias=0.1,radius=nominal";
         let Method::Burley(found) = all.parse::<Recipe>().unwrap().method else { panic!("burley") };
         let soft = found.soft;
-        let between = Softness::Between { min: Extent::World(1.0), max: Extent::Share(0.02) };
+        let between = Softness::Between { min: MapRadius::World(1.0), max: MapRadius::Fraction(0.02) };
         assert_eq!((found.softness(), soft.radius_gamma, soft.rescue), (between, 2.0, true));
         assert_eq!((soft.search.num_samples, soft.blur.num_samples, soft.blur.rotate), (16, 64, false));
         assert_eq!(soft.opacity, Opacity::default().with_near(0.9).with_far(0.2).with_fade(30.0).with_gamma(0.5));

@@ -6,7 +6,7 @@ use super::{RecipeError, Set, over};
 use umbrage_depth::Map;
 use umbrage_plane::Bias;
 use umbrage_sample::{Density, Disc};
-use umbrage_shadow::{Biased, Extent, Falloff, Shadow, Soft, Softness, presets};
+use umbrage_shadow::{Biased, MapRadius, OccluderFalloff, Shadow, Soft, Softness, presets};
 
 pub const FIELDS: &str = "stored, ratio, merge, same, epsilon, sub-samples, min, max, light, nearest, search, blur, rotate, half-offset, rescue, falloff, shape, opacity, opacity-shape, fade, bias, spread, depth, slope, radius, slack or reach";
 
@@ -17,8 +17,8 @@ pub struct Burley {
     /// Its own depth is not used.
     pub soft: Soft,
     /// Radii that are given.
-    min: Option<Extent>,
-    max: Option<Extent>,
+    min: Option<MapRadius>,
+    max: Option<MapRadius>,
     light: Option<f32>,
     nearest: Option<f32>,
 }
@@ -72,10 +72,10 @@ impl Burley {
             "rescue" => soft.rescue = switch(field, value)?,
             "falloff" => {
                 let known = [
-                    ("linear", (Falloff::Linear { rim: 0.1 }, Density::Centred)),
-                    ("smooth", (Falloff::Smooth { rim: 0.1 }, Density::Centred)),
-                    ("square", (Falloff::Power { rim: 0.1, exponent: 2.0 }, Density::Centred)),
-                    ("flat", (Falloff::Flat, Density::Uniform)),
+                    ("linear", (OccluderFalloff::Linear { rim: 0.1 }, Density::Centred)),
+                    ("smooth", (OccluderFalloff::Smooth { rim: 0.1 }, Density::Centred)),
+                    ("square", (OccluderFalloff::Power { rim: 0.1, exponent: 2.0 }, Density::Centred)),
+                    ("flat", (OccluderFalloff::Flat, Density::Uniform)),
                 ];
                 (soft.falloff, soft.search.density) = one_of(field, value, &known, "linear, smooth, square or flat")?;
             }
@@ -105,9 +105,9 @@ impl Burley {
         }
         if let Softness::Between { min, max } = self.softness() {
             let larger = match (min, max) {
-                (Extent::Texels(min), Extent::Texels(max))
-                | (Extent::Share(min), Extent::Share(max))
-                | (Extent::World(min), Extent::World(max)) => min > max,
+                (MapRadius::Texels(min), MapRadius::Texels(max))
+                | (MapRadius::Fraction(min), MapRadius::Fraction(max))
+                | (MapRadius::World(min), MapRadius::World(max)) => min > max,
                 _ => false,
             };
             if larger {

@@ -5,7 +5,7 @@ use super::{RecipeError, Set};
 use crate::{Soup, expose, expose_deep};
 use std::sync::Arc;
 use umbrage_bake::{Deep, bake, bake_by_normals, bake_multi};
-use umbrage_depth::{BackFace, DepthRule, First, Map, Midpoint, Same, Second, Tiled};
+use umbrage_depth::{BackFace, DepthRule, First, Map, Midpoint, SameSurface, Second, Tiled};
 use umbrage_plane::View;
 use umbrage_raster::Cull;
 use umbrage_scene::Scene;
@@ -67,7 +67,8 @@ impl Stored {
                 (self.sub_samples, self.deep) = (axis, self.deep.with_axis(axis));
             }
             "same" => {
-                let known = [("depth", Same::Depth), ("object", Same::Object), ("surface", Same::Surface)];
+                let known =
+                    [("depth", SameSurface::Depth), ("object", SameSurface::Object), ("surface", SameSurface::Surface)];
                 self.midpoint.same = one_of(field, value, &known, "depth, object or surface")?;
             }
             _ => return Ok(false),

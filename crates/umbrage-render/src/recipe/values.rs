@@ -2,7 +2,7 @@
 
 use super::RecipeError;
 use umbrage_plane::Bias;
-use umbrage_shadow::Extent;
+use umbrage_shadow::MapRadius;
 
 /// A whole number from 1.
 pub fn count(field: &str, value: &str) -> Result<u32, RecipeError> {
@@ -77,14 +77,14 @@ pub fn bias_range(field: &str, value: &str) -> Result<(Bias, Bias), RecipeError>
 }
 
 /// A number of one unit as a radius.
-type Radius = fn(f32) -> Extent;
+type Radius = fn(f32) -> MapRadius;
 
 /// A radius on the map with its unit, texels without.
-pub fn extent(field: &str, value: &str) -> Result<Extent, RecipeError> {
+pub fn extent(field: &str, value: &str) -> Result<MapRadius, RecipeError> {
     let units: [(char, Radius); 3] =
-        [('w', Extent::World), ('t', Extent::Texels), ('%', |percent| Extent::Share(percent / 100.0))];
+        [('w', MapRadius::World), ('t', MapRadius::Texels), ('%', |percent| MapRadius::Fraction(percent / 100.0))];
     let named = units.into_iter().find_map(|(letter, unit)| Some((value.strip_suffix(letter)?, unit)));
-    let (digits, unit) = named.unwrap_or((value, Extent::Texels));
+    let (digits, unit) = named.unwrap_or((value, MapRadius::Texels));
     let error =
         |_| RecipeError::value(field, value, "a number from 0 with a unit t (texels), w (world) or % (of the map)");
     number(field, digits).map(unit).map_err(error)

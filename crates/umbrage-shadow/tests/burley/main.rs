@@ -6,8 +6,8 @@ use umbrage_plane::{Bias, Footprint, Kind, Receiver, Rules, SurfacePoint, TexelR
 use umbrage_sample::{Density, Disc, Key, Pattern, each_tap};
 use umbrage_shadow::as_printed::{BurleyListing, Sample, sample_blur, sample_depth, soft_radius, soft_shadow};
 use umbrage_shadow::{
-    Biased, Cone, Counters, Extent, Falloff, Filter, Opacity, Pcf, Probe, Radius, ReceiverDepth, ShadowMap, Soft,
-    Softness, factor, presets,
+    BiasCone, Biased, Counters, Filter, MapRadius, OccluderFalloff, Opacity, Pcf, Probe, Radius, ReceiverDepth,
+    ShadowMap, Soft, Softness, presets,
 };
 
 mod cone;
@@ -51,12 +51,12 @@ fn still(num_samples: u32, density: Density) -> Disc {
 }
 
 fn between(min: f32, max: f32) -> Softness {
-    Softness::Between { min: Extent::Texels(min), max: Extent::Texels(max) }
+    Softness::Between { min: MapRadius::Texels(min), max: MapRadius::Texels(max) }
 }
 
 #[test]
 fn v62_b06_1_the_cone_corrected_and_as_printed_e_b1_e_b5() {
-    let cone = Cone::default().with_base(0.1);
+    let cone = BiasCone::default().with_base(0.1);
     assert_eq!(cone.slope, 2.0);
     let listing = BurleyListing { base: 0.1, slope: 2.0, ..BurleyListing::default() };
     assert_eq!(BurleyListing::default().slope, 1.0);
@@ -79,18 +79,21 @@ fn v62_b06_1_the_cone_corrected_and_as_printed_e_b1_e_b5() {
 
 #[test]
 fn v61_b06_4_weights_of_sixteen_search_taps() {
-    let (mut sum, burley) = (0.0, Falloff::Linear { rim: 0.1 });
+    let (mut sum, burley) = (0.0, OccluderFalloff::Linear { rim: 0.1 });
     let region = Footprint::boxed(Vec2::splat(50.0), Vec2::splat(8.0));
     each_tap(&still(16, Density::Centred), &region, KEY, |tap| {
         sum += burley.weight((tap.at - region.centre).length() / 8.0);
     });
     assert!((sum - 9.25).abs() < 1e-5, "{sum}");
-    for falloff in [burley, Falloff::Smooth { rim: 0.1 }, Falloff::Flat] {
+    for falloff in [burley, OccluderFalloff::Smooth { rim: 0.1 }, OccluderFalloff::Flat] {
         let weights: Vec<f32> = (0..=100).map(|i| falloff.weight(i as f32 * 0.01)).collect();
         assert!(weights.windows(2).all(|pair| pair[1] <= pair[0]) && weights[100] > 0.09, "{falloff:?}");
         assert_eq!(weights[0], 1.0);
     }
-    assert!((burley.weight(1.0) - 0.1).abs() < 1e-6 && (Falloff::Smooth { rim: 0.1 }.weight(1.0) - 0.1).abs() < 1e-6);
+    assert!(
+        (burley.weight(1.0) - 0.1).abs() < 1e-6
+            && (OccluderFalloff::Smooth { rim: 0.1 }.weight(1.0) - 0.1).abs() < 1e-6
+    );
 }
 
 #[test]
@@ -131,33 +134,36 @@ fn v63_b06_4_b06_9_the_mean_of_a_hand_made_map() {
     let plain = presets::fernando(Bias::ZERO);
     let filter =
         |density, falloff| plain.with_softness(between(0.5, 8.0)).with_search(still(4, density)).with_falloff(falloff);
-    let weighted = mean_found(filter(Density::Centred, Falloff::Linear { rim: 0.1 }), &filled, &receiver);
+    let weighted = mean_found(filter(Density::Centred, OccluderFalloff::Linear { rim: 0.1 }), &filled, &receiver);
     // Weights 1, .55, .325 by the radii 0, 4, 6 of 8.
     let wanted = (5.0 + 8.0 * 0.55 + 3.0 * 0.325) / 1.875;
     assert!((weighted - wanted).abs() < 1e-4, "{weighted}, want {wanted}");
-    let mean = mean_found(filter(Density::Centred, Falloff::Flat), &filled, &receiver);
+    let mean = mean_found(filter(Density::Centred, OccluderFalloff::Flat), &filled, &receiver);
     assert!((mean - 5.333_333).abs() < 1e-4, "{mean}");
     // The printed search over the same map finds the same.
     let listing = BurleyListing { base: 0.0, slope: 0.0, samples: 4 };
     let samples = [(0.0, 5.0), (4.0, 8.0), (2.0, 20.0), (6.0, 3.0)].map(|(radius, depth)| Sample { radius, depth });
     assert!((f64::from(sample_depth(&listing, 10.0, 8.0, samples)) - wanted).abs() < 1e-5);
-    assert_eq!((plain.search.density, plain.falloff), (Density::Uniform, Falloff::Flat));
+    assert_eq!((plain.search.density, plain.falloff), (Density::Uniform, OccluderFalloff::Flat));
 }
 
 #[test]
 fn v64_b06_6_radii_corrected_and_as_printed_e_b4() {
     for (mean, wanted) in [(6.0, 4.2), (10.0, 1.0), (2.5, 7.0), (12.0, 1.0)] {
-        assert!((1.0 + 8.0 * factor(mean, 10.0) - wanted).abs() < 1e-6);
+        assert!((1.0 + 8.0 * Softness::factor(mean, 10.0) - wanted).abs() < 1e-6);
     }
     assert!(
         (soft_radius(1.0, 9.0, 12.0, 10.0) + 0.6).abs() < 1e-6 && (soft_radius(1.0, 9.0, 6.0, 10.0) - 4.2).abs() < 1e-6
     );
     for (mean, wanted) in [(10.0, 0.1), (9.0, 0.29), (7.5, 0.575), (5.0, 1.05), (2.5, 1.525)] {
-        assert!((0.1 + 1.9 * factor(mean, 10.0) - wanted).abs() < 1e-6);
+        assert!((0.1 + 1.9 * Softness::factor(mean, 10.0) - wanted).abs() < 1e-6);
         assert!((soft_radius(0.1, 2.0, mean, 10.0) - wanted).abs() < 1e-6);
     }
     // A receiver at or behind the light, and one at depth 0 (E-B4).
-    assert_eq!((factor(5.0, 0.0), factor(5.0, -1.0), soft_radius(1.0, 9.0, 5.0, 0.0)), (0.0, 0.0, 1.0));
+    assert_eq!(
+        (Softness::factor(5.0, 0.0), Softness::factor(5.0, -1.0), soft_radius(1.0, 9.0, 5.0, 0.0)),
+        (0.0, 0.0, 1.0)
+    );
     let view = lamp(64);
     let receiver = facing(&view, 10.0, Vec2::splat(32.2));
     for nothing in [f32::INFINITY, 12.0, 10.0] {
@@ -229,22 +235,26 @@ fn b06_6_units_of_radii_agree_and_wide_blurs_are_cut_off() {
     let view = lamp(256).with_size(UVec2::new(256, 128)).unwrap();
     let caster = map(&view, |texel| if texel.x + texel.y > 190 { 4.0 } else { f32::INFINITY });
     let receiver = facing(&view, 10.0, Vec2::new(128.3, 64.4));
-    let answer = |extent: fn(f32) -> Extent, size: f32| {
+    let answer = |extent: fn(f32) -> MapRadius, size: f32| {
         let softness = Softness::Between { min: extent(0.1 * size), max: extent(size) };
         ask(&presets::burley().with_softness(softness), &caster, &receiver)
     };
     // 1/16 of the map is 16 columns and 8 rows; a texel is 20/256 wide and 20/128 high.
-    let (share, world) = (answer(Extent::Share, 1.0 / 16.0), answer(Extent::World, 1.25));
+    let (share, world) = (answer(MapRadius::Fraction, 1.0 / 16.0), answer(MapRadius::World, 1.25));
     assert!(share > 0.0 && share < 1.0, "{share}");
     assert_eq!(share, world);
     let square = lamp(256);
     let caster = map(&square, |texel| if texel.x + texel.y > 250 { 4.0 } else { f32::INFINITY });
     let receiver = facing(&square, 10.0, Vec2::splat(128.3));
     let answer = |softness| ask(&presets::burley().with_softness(softness), &caster, &receiver);
-    let sized = |extent: fn(f32) -> Extent, size: f32| Softness::Between { min: extent(0.5 * size), max: extent(size) };
-    let texels = answer(sized(Extent::Texels, 16.0));
+    let sized =
+        |extent: fn(f32) -> MapRadius, size: f32| Softness::Between { min: extent(0.5 * size), max: extent(size) };
+    let texels = answer(sized(MapRadius::Texels, 16.0));
     assert!(texels > 0.0 && texels < 1.0);
-    assert_eq!((texels, texels), (answer(sized(Extent::Share, 1.0 / 16.0)), answer(sized(Extent::World, 1.25))));
+    assert_eq!(
+        (texels, texels),
+        (answer(sized(MapRadius::Fraction, 1.0 / 16.0)), answer(sized(MapRadius::World, 1.25)))
+    );
     assert_eq!(answer(between(1e9, 1e9)), answer(between(64.0, 64.0)));
     assert_eq!(answer(between(f32::INFINITY, f32::INFINITY)), answer(between(64.0, 64.0)));
 }
@@ -361,7 +371,7 @@ fn b06_12_any_store_feeds_it() {
     let midpoints = map(&view, |texel| if texel.x < 64 { 5.0 } else { f32::INFINITY });
     for filter in [
         presets::burley(),
-        presets::burley().with_depth(Cone::default().with_base(0.1).with_slope(0.5).with_radius(Radius::Nominal)),
+        presets::burley().with_depth(BiasCone::default().with_base(0.1).with_slope(0.5).with_radius(Radius::Nominal)),
     ] {
         assert_eq!(ask(&filter, &midpoints, &facing(&view, 10.0, Vec2::new(30.3, 64.0))), 1.0);
         assert_eq!(ask(&filter, &midpoints, &facing(&view, 4.0, Vec2::new(30.3, 64.0))), 0.0);
