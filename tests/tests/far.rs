@@ -130,7 +130,7 @@ fn truth_planar_shadows_and_the_post_process_move_along() {
         let view = scene.lights[0].view.with_kind(Kind::Screen);
         let map =
             bake(&view, Soup::casters(scene, &view).triangles(), &umbrage_depth::First, umbrage_raster::Cull::None);
-        let light = ShadowMap { filter: presets::williams78(), map: map.map };
+        let light = ShadowMap { filter: presets::williams78().filter, map: map.map };
         let seen = asked(scene, &umbrage_shadow::Unshadowed);
         post::shadow_image(&seen.depth, &scene.camera, None, &light, Key::new(0, 0, 0)).shadow
     };
@@ -153,8 +153,8 @@ fn maps_in_all_directions_move_along() {
             let soup = Soup::casters(scene, &view);
             bake(&view, soup.triangles(), &umbrage_depth::First, umbrage_raster::Cull::None).map
         });
-        let flat = LatLong::from_maps(presets::reeves87(), &maps, UVec2::new(1024, 512)).unwrap();
-        let cube = Around::new(presets::reeves87(), maps.to_vec()).unwrap();
+        let flat = LatLong::from_maps(presets::reeves87().filter, &maps, UVec2::new(1024, 512)).unwrap();
+        let cube = Around::new(presets::reeves87().filter, maps.to_vec()).unwrap();
         let all: [&dyn Shadow; 2] = [&cube, &flat];
         all.map(|shadow| picture(scene, &[shadow], &Frame::CENTRES).shadow[0].clone())
     };

@@ -75,13 +75,13 @@ fn r87_5_an_excluded_plane_still_receives_and_does_not_shadow_itself() {
     scene.objects[1].casts = false;
     let map = map(&scene, &scene.lights[0].view);
     // Without bias the casting plane would be half in false shadow.
-    let shadow = bind(presets::ordinary(Bias::ZERO), &map, Storage::Tiled);
+    let shadow = bind(presets::ordinary(Bias::ZERO).filter, &map, Storage::Tiled);
     let seen = picture(&scene, &[&*shadow], &Frame::CENTRES);
     let on_plane =
         |wanted: f32| (0..seen.object.len()).filter(|&i| seen.object[i] == 1 && seen.shadow[0][i] == wanted).count();
     assert!(on_plane(1.0) > 100 && on_plane(0.0) > 1000, "{} dark, {} lit", on_plane(1.0), on_plane(0.0));
     let with_plane = bind(
-        presets::ordinary(Bias::ZERO),
+        presets::ordinary(Bias::ZERO).filter,
         self::map(&small(gallery::sphere_plane(), 64, 256), &scene.lights[0].view),
         Storage::Tiled,
     );
@@ -162,7 +162,7 @@ fn w78_1_w78_2_two_views_of_512_with_16_bit_depth_and_a_light_at_infinity() {
         codes += 1;
     }
     assert!(codes > 10_000);
-    assert_eq!(presets::williams78().bias, Bias::Map(2.0 / 65_535.0));
+    assert_eq!(presets::williams78().filter.bias, Bias::Map(2.0 / 65_535.0));
 }
 
 #[test]

@@ -15,7 +15,7 @@
 //! let size = UVec2::splat(64);
 //! let lamp = View::perspective(DVec3::Y * 10.0, DVec3::ZERO, DVec3::NEG_Z, 1.0, 1.0, 100.0, size)?;
 //! let depths = (0..64 * 64).map(|i| if i % 64 < 32 { 5.0 } else { f32::INFINITY }).collect();
-//! let shadow = ShadowMap { filter: presets::reeves87(), map: Raw::new(lamp, depths)? };
+//! let shadow = ShadowMap { filter: presets::reeves87().filter, map: Raw::new(lamp, depths)? };
 //!
 //! let key = Key::new(0, 0, 0);
 //! assert_eq!(shadow.fraction(&SurfacePoint::at(Vec3::new(-2.0, 0.0, 0.0), Vec3::Y), key), 1.0);
@@ -44,6 +44,7 @@ pub use filters::{
 };
 pub use lights::{Around, AroundError, Evaluate, LatLong, LatLongError, Shadow, ShadowMap, Tags, Unshadowed};
 pub use mean::weighted_mean;
+pub use presets::{Preset, StoredError};
 pub use probe::{Counters, Probe};
 pub use query::{Filter, Query};
 pub use surfaces::{Met, Seen, Surfaces};

@@ -118,8 +118,8 @@ fn sectors() -> Vec<Raw> {
 
 #[test]
 fn w78_10_both_evaluators_agree_and_sectors_see_what_the_cube_sees() {
-    let cube = Around::new(presets::ordinary(Bias::World(0.01)), cube(256, Kind::Radial, cap)).unwrap();
-    let own = Around::new(presets::ordinary(Bias::World(0.01)), sectors()).unwrap();
+    let cube = Around::new(presets::ordinary(Bias::World(0.01)).filter, cube(256, Kind::Radial, cap)).unwrap();
+    let own = Around::new(presets::ordinary(Bias::World(0.01)).filter, sectors()).unwrap();
     assert_eq!((own.bytes(), own.evaluate), (5 * 200 * 180 * 4, Evaluate::Own));
     let mut every = own.clone();
     every.evaluate = Evaluate::Every;
@@ -167,7 +167,7 @@ fn r87_17_latitude_and_longitude_agree_with_the_cube_across_the_date_line_and_at
 
 #[test]
 fn views_that_do_not_stand_around_one_light_are_refused() {
-    let new = |maps: Vec<Raw>| Around::new(presets::reeves87(), maps).map(|_| ()).unwrap_err();
+    let new = |maps: Vec<Raw>| Around::new(presets::reeves87().filter, maps).map(|_| ()).unwrap_err();
     assert_eq!(new(Vec::new()), AroundError::Empty);
     let flat = View::orthographic(EYE, EYE + DVec3::X, DVec3::Y, 1.0, 0.1, 9.0, UVec2::ONE).unwrap();
     let empty = |view: View| Raw::new(view, vec![f32::INFINITY; view.size().element_product() as usize]).unwrap();

@@ -287,7 +287,7 @@ pub const F5: Figure = Figure {
 
 fn example(cx: &Context) -> anyhow::Result<Made> {
     let set = Set::new(gallery::sphere_plane(), cx.pick(1024, 256), 1024);
-    let picture = set.shoot(cx, presets::reeves87(), &Frame::default());
+    let picture = set.shoot(cx, presets::reeves87().filter, &Frame::default());
     let truth = set.truth(cx);
     let centroid = |picture: &Picture| metrics::centroid(shadow_grid(picture), &of(picture, |id| id == PLANE));
     let shift = centroid(&picture).zip(centroid(&truth)).map(|(ours, exact)| ours.distance(exact));
@@ -319,9 +319,9 @@ pub const F6: Figure = Figure {
 
 fn component(cx: &Context) -> anyhow::Result<Made> {
     let set = Set::new(gallery::sphere_plane(), cx.pick(512, 192), cx.pick(2048, 768));
-    let ordinary = set.shoot(cx, presets::ordinary(Bias::World(0.35)), &Frame::CENTRES);
-    let filtered = set.shoot(cx, presets::reeves87().with_res_factor(1.0), &Frame::CENTRES);
-    let softened = set.shoot(cx, presets::reeves87(), &Frame::CENTRES);
+    let ordinary = set.shoot(cx, presets::ordinary(Bias::World(0.35)).filter, &Frame::CENTRES);
+    let filtered = set.shoot(cx, presets::reeves87().filter.with_res_factor(1.0), &Frame::CENTRES);
+    let softened = set.shoot(cx, presets::reeves87().filter, &Frame::CENTRES);
     let truth = set.truth(cx);
     let edge = metrics::both(&metrics::edge_mask(shadow_grid(&truth), 4), &of(&truth, |id| id == PLANE));
     let error = |picture: &Picture| value(metrics::rms(&picture.shadow[0], &truth.shadow[0], &edge));

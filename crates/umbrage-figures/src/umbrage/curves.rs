@@ -50,7 +50,7 @@ fn acne(cx: &Context) -> anyhow::Result<Made> {
         let (mut measured, mut expected) = (Vec::new(), Vec::new());
         for index in 0..=16 {
             let steps = f64::from(index) * 0.05;
-            let shadow = bind(presets::ordinary(Bias::World((steps * step) as f32)), &map, cx.storage);
+            let shadow = bind(presets::ordinary(Bias::World((steps * step) as f32)).filter, &map, cx.storage);
             let key = Key::new(cx.seed, 0, index);
             let receivers: Vec<SurfacePoint> = (0..points)
                 .map(|i| {

@@ -81,7 +81,7 @@ fn paging(cx: &Context) -> anyhow::Result<Made> {
     let (pixels, texels) = (cx.pick(512, 192), cx.pick(16_384, 2048));
     let scene = scene(pixels)?;
     let (file, map) = written(&scene, &scene.lights[0].view.with_size(UVec2::splat(texels))?)?;
-    let filter = presets::reeves87().with_cull(false);
+    let filter = presets::reeves87().filter.with_cull(false);
     let frame = Frame { seed: cx.seed, ..Frame::CENTRES };
     let draw = |shadow: &dyn Shadow| picture(&scene, &[shadow], &frame);
     let whole = draw(&ShadowMap { filter, map: map.clone() });

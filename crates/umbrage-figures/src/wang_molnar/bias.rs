@@ -47,7 +47,7 @@ fn floor(from: f64, to: f64, count: u32) -> Vec<SurfacePoint> {
 
 /// The share in false shadow of the floor before a leg, and the lit gap behind it in world units, by one map.
 fn fault(cx: &Context, map: &Arc<Tiled>, bias: f64) -> (f64, f64) {
-    let shadow = bind(presets::ordinary(Bias::World(bias as f32)), map, cx.storage);
+    let shadow = bind(presets::ordinary(Bias::World(bias as f32)).filter, map, cx.storage);
     let ask = |points: &[SurfacePoint]| {
         let mut shares = vec![0.0; points.len()];
         shadow.fractions(points, Key::new(cx.seed, 0, 0), &mut shares);
@@ -156,7 +156,7 @@ fn detached(cx: &Context) -> anyhow::Result<String> {
     let map = slice.bake(&First);
     let geometry = Geometry::new(&slice.scene, &slice.scene.camera);
     let rays = slice.seen(cx, &RayCast::new(&geometry, slice.light()));
-    let by_map = slice.seen(cx, &*bind(presets::ordinary(Bias::World(15.0)), &map, cx.storage));
+    let by_map = slice.seen(cx, &*bind(presets::ordinary(Bias::World(15.0)).filter, &map, cx.storage));
     let floor = |points: Vec<DVec2>| points.into_iter().filter(|at| at.y.abs() < 0.01).collect::<Vec<_>>();
     let below = |points: Vec<DVec2>| floor(points).into_iter().map(|at| at - DVec2::Y * 1.6).collect::<Vec<_>>();
     let kept: Vec<DVec2> = stored(&map).into_iter().filter(|at| at.is_finite()).collect();

@@ -47,7 +47,7 @@ fn muddle() -> anyhow::Result<Slice> {
 
 /// The slice with one builder's second surfaces in grey and what the camera sees in shadow in black.
 fn slice_diagram(cx: &Context, title: &str, slice: &Slice, map: &Arc<Tiled>) -> Diagram {
-    let by_map = slice.seen(cx, &*bind(presets::wang_molnar94(), map, cx.storage));
+    let by_map = slice.seen(cx, &*bind(presets::wang_molnar94().filter, map, cx.storage));
     let dark = (0..by_map.object.len()).filter(|&i| by_map.object[i] != NOTHING && by_map.shadow[0][i] >= 0.5);
     let dark: Vec<DVec2> = dark.map(|i| by_map.position[i].truncate()).collect();
     slice
@@ -114,7 +114,7 @@ fn second(cx: &Context) -> anyhow::Result<Made> {
     let differ: Vec<f32> =
         raw[0].depths().iter().zip(raw[1].depths()).map(|(a, b)| f32::from(u8::from(a != b))).collect();
     let by = maps.each_ref().map(|map| {
-        let shadow = bind(presets::wang_molnar94().with_dark_backs(true), map, cx.storage);
+        let shadow = bind(presets::wang_molnar94().filter.with_dark_backs(true), map, cx.storage);
         set.draw(cx, &*shadow, &Frame::CENTRES)
     });
     let points = set.truth_points(cx, &Frame::CENTRES);

@@ -171,7 +171,7 @@ fn transforms(cx: &Context, stage: &Stage) -> anyhow::Result<(f64, f64, f64)> {
     let seen = picture(scene, &[&Unshadowed], &Frame::CENTRES);
     let visible = seen.depth.iter().filter(|zeta| zeta.is_finite()).count() as f64;
     let map = stage.maps[0].clone().ok_or_else(|| anyhow::anyhow!("the light has no map"))?;
-    let light = ShadowMap { filter: presets::williams78(), map };
+    let light = ShadowMap { filter: presets::williams78().filter, map };
     let afterwards = shadow_image(&seen.depth, &scene.camera, Some(16), &light, Key::new(cx.seed, 0, 0));
     let camera = scene.camera.with_kind(Kind::Axial);
     let layers = bake(&camera, Soup::all(scene, &camera).triangles(), &First, Cull::None).fragments as f64;
@@ -220,7 +220,7 @@ fn cost(cx: &Context) -> anyhow::Result<Made> {
         let soup = Soup::casters(&scene, view);
         let baked = bake(view, soup.triangles(), &First, Cull::None);
         let pass1 = start.elapsed().as_secs_f64();
-        let light = ShadowMap { filter: presets::williams78(), map: baked.map };
+        let light = ShadowMap { filter: presets::williams78().filter, map: baked.map };
         let start = Instant::now();
         let image = shadow_image(&seen.depth, &scene.camera, Some(16), &light, Key::new(cx.seed, 0, 0));
         let post = start.elapsed().as_secs_f64();

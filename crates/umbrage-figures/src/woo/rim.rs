@@ -80,7 +80,8 @@ fn rim(cx: &Context) -> anyhow::Result<Made> {
         ));
         let light = &set.scene.lights[0];
         let pattern = Jittered::default().with_num_samples(256);
-        let shadow = bind(presets::woo92().with_pattern(pattern).with_min_size(3.0), middle_map(&set), cx.storage);
+        let shadow =
+            bind(presets::woo92().filter.with_pattern(pattern).with_min_size(3.0), middle_map(&set), cx.storage);
         let profile = radial(cx, light, &*shadow, 0.0);
         let peak = profile.iter().map(|p| p.1).fold(0.0, f64::max);
         let ends = profile[0].1.max(profile[profile.len() - 1].1);

@@ -17,7 +17,7 @@ pub struct WangMolnar {
 
 impl Default for WangMolnar {
     fn default() -> Self {
-        Self { tent: false, filter: presets::wang_molnar94() }
+        Self { tent: false, filter: presets::wang_molnar94().filter }
     }
 }
 

@@ -125,10 +125,12 @@ impl FromStr for Recipe {
         let mut parts = text.split(',').map(str::trim);
         let name = parts.next().unwrap_or_default();
         let (rule, method) = match name {
-            "williams78" => (Rule::First, Method::Williams(presets::williams78())),
-            "reeves87" => (Rule::First, Method::Reeves(Reeves::new(presets::reeves87()))),
-            "reeves87-recommended" => (Rule::First, Method::Reeves(Reeves::new(presets::reeves87_recommended()))),
-            "woo92" => (Rule::Midpoint, Method::Reeves(Reeves::new(presets::woo92()))),
+            "williams78" => (Rule::First, Method::Williams(presets::williams78().filter)),
+            "reeves87" => (Rule::First, Method::Reeves(Reeves::new(presets::reeves87().filter))),
+            "reeves87-recommended" => {
+                (Rule::First, Method::Reeves(Reeves::new(presets::reeves87_recommended().filter)))
+            }
+            "woo92" => (Rule::Midpoint, Method::Reeves(Reeves::new(presets::woo92().filter))),
             "wang-molnar94" => (Rule::BackFace, Method::WangMolnar(WangMolnar::default())),
             "burley" => (Rule::First, Method::Burley(Burley::cone())),
             "fernando" => (Rule::First, Method::Burley(Burley::fernando())),

@@ -25,14 +25,15 @@ pub struct Burley {
 
 impl Burley {
     pub fn cone() -> Self {
-        Self::new(Depth::new(Choice::Cone, Biased::constant(Bias::ZERO)), presets::burley())
+        Self::new(Depth::new(Choice::Cone, Biased::constant(Bias::ZERO)), presets::burley().filter)
     }
 
     pub fn fernando() -> Self {
         // One texel: what a constant bias is set to where nothing is known of the scene.
         let Soft { softness, search, blur, falloff, radius_gamma, opacity, rescue, depth, .. } =
-            presets::fernando(Bias::Texels(1.0));
+            presets::fernando(Bias::Texels(1.0)).filter;
         let soft = presets::burley()
+            .filter
             .with_softness(softness)
             .with_search(search)
             .with_blur(blur)

@@ -36,7 +36,7 @@ fn random_plane(i: u32, slopes: std::ops::Range<f32>) -> Option<(Raw, Receiver)>
 }
 
 fn soft(depth: BiasCone) -> Soft {
-    presets::burley().with_softness(between(1.0, 9.0)).with_depth(depth).with_rescue(true)
+    presets::burley().filter.with_softness(between(1.0, 9.0)).with_depth(depth).with_rescue(true)
 }
 
 /// Of planes that stand alone: how many, and how many a cone darkens anywhere.
