@@ -40,6 +40,8 @@
 //!
 //! This crate draws no triangles and computes no shadow.
 
+#![warn(missing_debug_implementations)]
+
 mod back_face;
 mod bandlimit;
 mod bbox;

@@ -36,6 +36,8 @@
 //! projected at the light itself: what is nearer than 1/1024 of the near distance is cut off, and counted
 //! ([`Stats::too_near`]).
 
+#![warn(missing_debug_implementations)]
+
 mod bins;
 mod clip;
 mod coverage;

@@ -26,6 +26,8 @@
 //! Conventions: 1 is dark (`shadow`), equality is lit, a sample outside the map answers by the view's
 //! [`Rules`](umbrage_plane::Rules). This crate draws nothing and opens no file.
 
+#![warn(missing_debug_implementations)]
+
 pub mod as_printed;
 mod depths;
 mod filters;

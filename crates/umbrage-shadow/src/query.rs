@@ -2,6 +2,7 @@ use crate::surfaces::{Channel, Met, Seen, Surfaces};
 use crate::{Probe, ReceiverDepth};
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::{IVec2, Vec2};
+use std::fmt;
 use std::sync::Arc;
 use umbrage_depth::{DepthMap, Translucent};
 use umbrage_plane::{Footprint, Receiver, TexelRect, Verdict, View, floor_texel};
@@ -327,6 +328,12 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
     #[inline(always)]
     pub(crate) fn count(&mut self, texels: u32) {
         self.looked = Some(self.looked.unwrap_or(0) + texels);
+    }
+}
+
+impl<S: Simd, M, P> fmt::Debug for Query<'_, S, M, P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Query").field("receiver", self.receiver).field("key", &self.key).finish_non_exhaustive()
     }
 }
 
