@@ -1,4 +1,4 @@
-use crate::{Bbox, DeepMap, DepthMap, Raw, Stored, Tiled, Translucent};
+use crate::{Bbox, DeepMap, DepthMap, Raw, Stored, Tiled, Translucent, rows};
 use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use std::str::FromStr;
@@ -139,6 +139,15 @@ impl From<&Self> for Map {
     }
 }
 
+/// The nearest surfaces of a deep map: slow as it is, it need not be compiled for every filter.
+#[inline(never)]
+fn nearest<S: Simd>(simd: S, map: &DeepMap, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
+    simd.vectorize(
+        #[inline(always)]
+        || map.look(simd, TexelRect::of_size(map.view().size()), x, y),
+    )
+}
+
 impl DepthMap for Map {
     #[inline(always)]
     fn view(&self) -> &View {
@@ -152,7 +161,13 @@ impl DepthMap for Map {
 
     #[inline(always)]
     fn look<S: Simd>(&self, simd: S, within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
-        each!(self, map => map.look(simd, within, x, y))
+        let (depths, rect) = match self {
+            Self::Raw(map) => (map.depths(), TexelRect::of_size(map.view().size())),
+            Self::Bbox(map) => (map.depths(), map.finite()),
+            Self::Tiled(map) => return map.look(simd, within, x, y),
+            Self::Deep(map) => return nearest(simd, map, x, y),
+        };
+        rows::look(simd, depths, rect, x, y)
     }
 
     #[inline(always)]
