@@ -179,3 +179,19 @@ fn v59_r87_26_highlights_transformed_before_and_after_filtering() {
     assert!((highlight(mean) - 0.056_313_5).abs() < 1e-6);
     assert!((highlight(mean.normalize()) - 0.237_304_7).abs() < 1e-6);
 }
+
+#[test]
+fn shadows_and_maps_are_shared_between_threads() {
+    fn sent<T: Send + Sync + 'static>(_: &T) {}
+    let map = std::sync::Arc::new(Raw::new(lamp(16), vec![5.0; 256]).unwrap());
+    // One map under two filters, neither of which copies it.
+    let one = ShadowMap { filter: presets::reeves87().filter, map: std::sync::Arc::clone(&map) };
+    let two = ShadowMap { filter: presets::ordinary(Bias::ZERO).filter, map: std::sync::Arc::clone(&map) };
+    let shadows: Vec<Box<dyn Shadow>> = vec![Box::new(one), Box::new(two)];
+    sent(&shadows);
+    let below = SurfacePoint::at(Vec3::new(0.0, -10.0, 0.0), Vec3::Y);
+    let dark =
+        std::thread::spawn(move || shadows.iter().map(|shadow| shadow.fraction(&below, KEY)).collect::<Vec<_>>());
+    assert_eq!(dark.join().unwrap(), [1.0, 1.0]);
+    assert_eq!(std::sync::Arc::strong_count(&map), 1, "both went with their thread");
+}
