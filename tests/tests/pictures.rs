@@ -5,7 +5,8 @@ use umbrage_bake::{advised_map_sizes, bake};
 use umbrage_depth::{First, Raw, Storage, Tiled};
 use umbrage_plane::{Bias, Sampling, View};
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Picture, Recipe, Soup, bind, picture};
+use umbrage_recipe::{Recipe, bind};
+use umbrage_render::{Frame, Picture, Soup, picture};
 use umbrage_scene::{Scene, gallery};
 use umbrage_shadow::{Shadow, Unshadowed, presets};
 

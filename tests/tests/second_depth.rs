@@ -5,7 +5,8 @@ use std::fmt::Write;
 use umbrage_depth::Storage;
 use umbrage_oracle::{Geometry, RayCast, metrics};
 use umbrage_plane::View;
-use umbrage_render::{Frame, NOTHING, Picture, Recipe, picture};
+use umbrage_recipe::{Recipe};
+use umbrage_render::{Frame, NOTHING, Picture, picture};
 use umbrage_scene::{Scene, gallery};
 
 /// Pixels nearer than this to a silhouette that the light sees are not judged, texels.

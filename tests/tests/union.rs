@@ -6,7 +6,8 @@ use umbrage_depth::{BackFace, DepthMap, Second, Storage, Tiled};
 use umbrage_oracle::metrics;
 use umbrage_plane::TexelRect;
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Recipe, Soup, picture};
+use umbrage_recipe::{Recipe};
+use umbrage_render::{Frame, Soup, picture};
 use umbrage_scene::{Material, Mesh, Object, Scene, gallery};
 
 const GREY: Material = Material::matt(Vec3::splat(0.7));

@@ -6,7 +6,7 @@ use glam::{UVec2, Vec3};
 use std::hint::black_box;
 use umbrage_depth::Storage;
 use umbrage_plane::SurfacePoint;
-use umbrage_render::Recipe;
+use umbrage_recipe::Recipe;
 use umbrage_sample::Key;
 use umbrage_scene::gallery;
 

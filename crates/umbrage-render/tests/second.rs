@@ -5,7 +5,8 @@ use umbrage_bake::{bake, bake_by_normals, bake_multi, bake_tags};
 use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Midpoint, Same, Second, Tiled};
 use umbrage_plane::{Sampling, SurfacePoint, TexelRect, View};
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Recipe, Soup, picture};
+use umbrage_recipe::{Recipe};
+use umbrage_render::{Frame, Soup, picture};
 use umbrage_scene::{Material, Mesh, Object, Scene, gallery};
 use umbrage_shadow::Shadow;
 

@@ -9,7 +9,8 @@ use umbrage_depth::{First, Raw, Tiled, quantise};
 use umbrage_oracle::{AreaLight, Geometry, RayCast};
 use umbrage_plane::{Kind, Sampling, View};
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Picture, Recipe, Soup, bind, picture};
+use umbrage_recipe::{Recipe, bind};
+use umbrage_render::{Frame, Picture, Soup, picture};
 use umbrage_scene::Scene;
 use umbrage_shadow::{Filter, Shadow, Unshadowed};
 
