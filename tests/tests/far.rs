@@ -6,7 +6,8 @@ use umbrage_depth::{DepthMap, Storage};
 use umbrage_io::{DEFAULT_BUDGET, decode_shadow_map, encode_shadow_map};
 use umbrage_oracle::{Geometry, RayCast};
 use umbrage_plane::{Kind, cube_views};
-use umbrage_render::{Frame, Ground, Picture, Planar, Recipe, Soup, picture, post};
+use umbrage_recipe::Recipe;
+use umbrage_render::{Frame, Ground, Picture, Planar, Soup, light_map, picture, post};
 use umbrage_sample::Key;
 use umbrage_scene::{Scene, gallery};
 use umbrage_shadow::{Around, LatLong, Shadow, ShadowMap, presets};
@@ -58,7 +59,7 @@ fn as_meant(mut scene: Scene, recipe: &str) -> Scene {
 
 fn shot(scene: &Scene, recipe: &str) -> Picture {
     let parsed: Recipe = recipe.parse().unwrap();
-    let shadow = parsed.bind(parsed.bake(scene, &scene.lights[0].view), Storage::Tiled);
+    let shadow = parsed.bind(light_map(&parsed, scene, &scene.lights[0].view), Storage::Tiled).unwrap();
     picture(scene, &[&*shadow], &Frame::CENTRES)
 }
 
@@ -189,10 +190,10 @@ fn files_of_maps_far_away_are_the_maps() {
     let recipe: Recipe = "reeves87".parse().unwrap();
     for by in OFFSETS {
         let far = home.clone().moved(by).unwrap();
-        let map = recipe.bake(&far, &far.lights[0].view);
+        let map = light_map(&recipe, &far, &far.lights[0].view);
         let read = decode_shadow_map(&encode_shadow_map(&map).unwrap(), DEFAULT_BUDGET).unwrap();
         assert_eq!(read.view(), map.view(), "{by}");
-        let shadow = recipe.bind(read, Storage::Raw);
+        let shadow = recipe.bind(read, Storage::Raw).unwrap();
         let seen = picture(&far, &[&*shadow], &Frame::CENTRES);
         assert_eq!(seen.shadow, shot(&far, "reeves87").shadow, "{by}");
     }

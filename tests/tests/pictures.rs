@@ -6,7 +6,8 @@ use umbrage_bake::{advised_map_sizes, bake};
 use umbrage_depth::{First, Raw, Storage, Tiled};
 use umbrage_plane::{Bias, Sampling, View};
 use umbrage_raster::Cull;
-use umbrage_render::{Frame, Picture, Recipe, Soup, bind, picture};
+use umbrage_recipe::{Recipe, bind};
+use umbrage_render::{Frame, Picture, Soup, picture};
 use umbrage_scene::{Scene, gallery};
 use umbrage_shadow::{Shadow, Unshadowed, presets};
 
@@ -33,7 +34,7 @@ fn bits(picture: &Picture) -> Vec<u32> {
 fn shot(scene: &Scene, recipe: &str, storage: Storage, frame: &Frame) -> Picture {
     let recipe: Recipe = recipe.parse().unwrap();
     let shadows: Vec<Box<dyn Shadow>> =
-        scene.lights.iter().map(|light| recipe.bind(map(scene, &light.view), storage)).collect();
+        scene.lights.iter().map(|light| recipe.bind(map(scene, &light.view), storage).unwrap()).collect();
     let shadows: Vec<&dyn Shadow> = shadows.iter().map(AsRef::as_ref).collect();
     picture(scene, &shadows, frame)
 }

@@ -24,6 +24,18 @@ impl Deep {
         if valid { Ok(Self { epsilon, axis: 1 << axis.clamp(1, 8).ilog2() }) } else { Err(MapError::Epsilon(epsilon)) }
     }
 
+    /// How far a stored transmittance may stand from the gathered one.
+    #[must_use]
+    pub fn epsilon(&self) -> f32 {
+        self.epsilon
+    }
+
+    /// Samples along each side of a texel.
+    #[must_use]
+    pub fn axis(&self) -> u32 {
+        self.axis
+    }
+
     /// The same with another bound on the error of the stored transmittance.
     ///
     /// # Errors

@@ -1,13 +1,14 @@
 //! Pictures from scenes, and the maps of a scene's lights: the library crate that joins scenes, maps and shadows.
 //!
 //! The reading path: a [`Soup`] is a scene's triangles for one view; [`bake`](umbrage_bake::bake) makes a light's depth map of it;
-//! [`bind`] puts a filter over the map in the storage that is asked for; [`picture`] draws the camera's image with it.
+//! [`bind`](umbrage_recipe::bind) puts a filter over the map in the storage that is asked for; [`picture`] draws the camera's image with it.
 //!
 //! ```
 //! use umbrage_bake::bake;
-//! use umbrage_depth::First;
+//! use umbrage_depth::{First, Storage};
 //! use umbrage_raster::Cull;
-//! use umbrage_render::{Frame, Soup, Storage, bind, picture};
+//! use umbrage_recipe::bind;
+//! use umbrage_render::{Frame, Soup, picture};
 //! use umbrage_scene::gallery;
 //! use umbrage_shadow::presets;
 //!
@@ -27,13 +28,12 @@ mod lights;
 mod picture;
 mod planar;
 pub mod post;
-mod recipe;
 mod shade;
 mod soup;
 
-pub use exposure::{expose, expose_deep};
+pub use exposure::{expose, expose_deep, exposed_map, light_map};
 pub use lights::{bind_lights, light_maps};
 pub use picture::{Frame, NOTHING, Picture, picture};
 pub use planar::{Ground, Planar};
-pub use recipe::{Recipe, RecipeError, bind};
+
 pub use soup::Soup;

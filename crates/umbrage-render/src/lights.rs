@@ -1,5 +1,6 @@
-use crate::{Recipe, RecipeError};
+use crate::light_map;
 use umbrage_depth::{Map, Storage};
+use umbrage_recipe::{Recipe, RecipeError};
 use umbrage_scene::{Light, Scene};
 use umbrage_shadow::{Shadow, Unshadowed};
 
@@ -10,7 +11,7 @@ use umbrage_shadow::{Shadow, Unshadowed};
 /// A light's recipe that cannot be used, with the light's name.
 pub fn light_maps(scene: &Scene, default: &Recipe) -> Result<Vec<Option<Map>>, RecipeError> {
     let map = |light: &Light| {
-        let bake = |recipe: Recipe| recipe.bake(scene, &light.view);
+        let bake = |recipe: Recipe| light_map(&recipe, scene, &light.view);
         light.casts.then(|| own(light, default).map(bake)).transpose()
     };
     scene.lights.iter().map(map).collect()
@@ -21,7 +22,7 @@ pub fn light_maps(scene: &Scene, default: &Recipe) -> Result<Vec<Option<Map>>, R
 /// `maps` are those of [`light_maps`]; a missing one casts no shadow.
 ///
 /// # Errors
-/// As [`light_maps`].
+/// As [`light_maps`], and for a map that records another surface than its light's recipe expects.
 pub fn bind_lights(
     scene: &Scene,
     maps: &[Option<Map>],
@@ -30,7 +31,7 @@ pub fn bind_lights(
 ) -> Result<Vec<Box<dyn Shadow>>, RecipeError> {
     let one = |(index, light): (usize, &Light)| -> Result<Box<dyn Shadow>, RecipeError> {
         match maps.get(index).and_then(Option::as_ref) {
-            Some(map) => Ok(own(light, default)?.bind(map, storage)),
+            Some(map) => own(light, default)?.bind(map, storage).map_err(|error| of_light(error, light)),
             None => Ok(Box::new(Unshadowed)),
         }
     };
@@ -40,7 +41,12 @@ pub fn bind_lights(
 /// The recipe of a light's tree, or `default`.
 fn own(light: &Light, default: &Recipe) -> Result<Recipe, RecipeError> {
     match light.tree.as_ref().and_then(|tree| tree.recipe()) {
-        Some(text) if !text.is_empty() => text.parse().map_err(|error: RecipeError| error.of_light(&light.name)),
+        Some(text) if !text.is_empty() => text.parse().map_err(|error| of_light(error, light)),
         _ => Ok(*default),
     }
+}
+
+/// An error that says whose recipe it is of.
+fn of_light(error: RecipeError, light: &Light) -> RecipeError {
+    error.of(&format!("light {:?}", light.name))
 }

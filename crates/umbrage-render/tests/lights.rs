@@ -3,7 +3,8 @@
 use glam::{DVec3, UVec2, Vec3};
 use umbrage_depth::Storage;
 use umbrage_plane::Bias;
-use umbrage_render::{Frame, Ground, Picture, Planar, Recipe, bind, bind_lights, light_maps, picture};
+use umbrage_recipe::{Recipe, bind};
+use umbrage_render::{Frame, Ground, Picture, Planar, bind_lights, light_maps, picture};
 use umbrage_scene::tree::Tree;
 use umbrage_scene::{Scene, gallery};
 use umbrage_shadow::{Shadow, presets};

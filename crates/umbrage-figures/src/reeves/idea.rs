@@ -114,8 +114,8 @@ fn two_orders(cx: &Context) -> anyhow::Result<Made> {
     let normal = view.toward_eye(position.as_dvec3()).as_vec3();
     let region = SurfacePoint::at(position, normal).with_corners(corners);
     let ask = |recipe: &str| -> anyhow::Result<f64> {
-        let recipe: umbrage_render::Recipe = recipe.parse()?;
-        Ok(f64::from(recipe.bind(&map, cx.storage).fraction(&region, Key::new(cx.seed, 0, 0))))
+        let recipe: umbrage_recipe::Recipe = recipe.parse()?;
+        Ok(f64::from(recipe.bind(&map, cx.storage)?.fraction(&region, Key::new(cx.seed, 0, 0))))
     };
     let mean = depths.iter().map(|&d| f64::from(d)).sum::<f64>() / 9.0;
     let size = UVec2::splat(3);

@@ -8,7 +8,7 @@ use umbrage_depth::{First, Tiled};
 use umbrage_oracle::{metrics, predict};
 use umbrage_plane::{Bias, Footprint, SurfacePoint, View};
 use umbrage_raster::{Cull, Triangle};
-use umbrage_render::bind;
+use umbrage_recipe::bind;
 use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::{Made, Measure};
 use umbrage_sample::{Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Uniform};

@@ -1,0 +1,58 @@
+//! Pass 1 by what a recipe stores.
+
+use crate::values::{Rule, Values};
+use std::sync::Arc;
+use umbrage_bake::{Caster, bake, bake_by_normals, bake_deep, bake_multi, mix_moments};
+use umbrage_depth::{BackFace, DepthRule, First, Map, Second, Tiled};
+use umbrage_plane::View;
+use umbrage_raster::{Cull, Triangle};
+
+impl Values {
+    /// `moments` are at evenly spread times: deep maps hold their mean, and of rules that keep one surface each texel sees one of them.
+    pub fn bake<M>(&self, view: &View, moments: impl IntoIterator<Item = M>) -> Map
+    where
+        M: IntoIterator<Item: Into<Caster>>,
+    {
+        if self.rule == Rule::Deep {
+            let deep = self.sub_samples.map_or(self.deep, |axis| self.deep.with_axis(axis));
+            return bake_deep(view, moments, &deep).into();
+        }
+        let mut maps: Vec<Arc<Tiled>> = moments.into_iter().map(|moment| self.flat(view, moment)).collect();
+        match (maps.len(), maps.pop()) {
+            (1, Some(map)) => map.into(),
+            (_, last) => {
+                maps.extend(last);
+                mix_moments(view, &maps, 0).with_stored(self.rule.stored()).into()
+            }
+        }
+    }
+
+    /// One surface per texel.
+    fn flat(&self, view: &View, casters: impl IntoIterator<Item: Into<Caster>>) -> Arc<Tiled> {
+        if self.rule == Rule::Normals {
+            return bake_by_normals(view, casters, &BackFace).map;
+        }
+        let triangles = casters.into_iter().map(|caster| -> Triangle { caster.into().triangle });
+        match self.rule {
+            Rule::First | Rule::Deep | Rule::Normals => self.sampled(view, triangles, &First, Cull::None),
+            Rule::Second => self.sampled(view, triangles, &Second, Cull::None),
+            Rule::BackFace => self.sampled(view, triangles, &BackFace, Cull::Front),
+            Rule::Midpoint => self.sampled(view, triangles, &self.midpoint, Cull::None),
+        }
+    }
+
+    /// As many samples per texel as are asked for, one where so many do not fit.
+    fn sampled<R: DepthRule>(
+        &self,
+        view: &View,
+        triangles: impl Iterator<Item = Triangle>,
+        rule: &R,
+        cull: Cull,
+    ) -> Arc<Tiled> {
+        let axis = self.sub_samples.unwrap_or(1);
+        if axis > 1 && view.with_size(view.size().saturating_mul([axis; 2].into())).is_ok() {
+            return bake_multi(view, triangles, rule, cull, axis).expect("as many samples as fit").map;
+        }
+        bake(view, triangles, rule, cull).map
+    }
+}

@@ -1,0 +1,85 @@
+//! Filters over maps: where types end and the one dynamic seam begins.
+//!
+//! What a recipe chooses stays data down to the filter ([`AnyPattern`], [`AnyDepth`](umbrage_shadow::AnyDepth)), so that each filter is
+//! compiled once.
+
+use crate::PresetName;
+use crate::values::{PatternName, Values};
+use umbrage_depth::{Map, Storage};
+use umbrage_sample::{
+    AnyPattern, Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Tent, Uniform,
+};
+use umbrage_shadow::{Conditional, Filter, FilteredDepth, IntegerFirst, Pcf, Shadow, ShadowMap, Soft, Williams};
+
+/// Puts a filter over a map in the storage that is asked for. A filter expects no surface in particular; a [`Recipe`](crate::Recipe) does.
+pub fn bind<F: Filter + 'static>(filter: F, map: impl Into<Map>, storage: Storage) -> Box<dyn Shadow> {
+    over(filter, map.into().kept(storage))
+}
+
+fn over<F: Filter + 'static>(filter: F, map: Map) -> Box<dyn Shadow> {
+    Box::new(ShadowMap { filter, map })
+}
+
+impl Values {
+    /// The filter of a preset with these values.
+    pub fn bind(&self, preset: PresetName, map: Map) -> Box<dyn Shadow> {
+        match preset {
+            PresetName::Williams78 => {
+                let filter = Williams::default().with_bias(self.biased.low).with_lookup(self.lookup);
+                over(filter.with_dither(self.dither), map)
+            }
+            PresetName::Reeves87 | PresetName::Reeves87Recommended | PresetName::Woo92 => self.closer_over(map),
+            PresetName::WangMolnar94 => {
+                let filter = Conditional::default()
+                    .with_pattern(self.pattern())
+                    .with_res_factor(self.res_factor)
+                    .with_min_size(self.min_size)
+                    .with_plane(self.plane())
+                    .with_min_cos(self.min_cos)
+                    .with_when(self.when)
+                    .with_dark_backs(self.dark_backs);
+                over(filter, map)
+            }
+            PresetName::Burley | PresetName::Fernando => {
+                let filter = Soft::default()
+                    .with_depth(self.compared())
+                    .with_softness(self.softness())
+                    .with_search(self.search)
+                    .with_blur(self.blur)
+                    .with_falloff(self.falloff)
+                    .with_radius_gamma(self.shape)
+                    .with_opacity(self.opacity)
+                    .with_rescue(self.rescue);
+                over(filter, map)
+            }
+            PresetName::Ordinary => {
+                let filter = FilteredDepth::default().with_bias(self.biased.low).with_res_factor(self.res_factor);
+                over(filter, map)
+            }
+        }
+    }
+
+    fn closer_over(&self, map: Map) -> Box<dyn Shadow> {
+        if self.integer_first {
+            let filter = IntegerFirst::default().with_pattern(self.jittered).with_unit(self.unit);
+            return over(filter.with_res_factor(self.res_factor).with_min_size(self.min_size), map);
+        }
+        let filter = Pcf::default().with_pattern(self.pattern()).with_depth(self.compared());
+        over(filter.with_res_factor(self.res_factor).with_min_size(self.min_size), map)
+    }
+
+    fn pattern(&self) -> AnyPattern {
+        let num_samples = self.jittered.num_samples;
+        match self.pattern {
+            PatternName::Jittered => self.jittered.into(),
+            PatternName::Uniform => Uniform::default().with_num_samples(num_samples).into(),
+            PatternName::Gaussian => Gaussian::default().with_num_samples(num_samples).into(),
+            PatternName::Inside => InsideQuadReject(self.jittered).into(),
+            PatternName::Warp => InsideQuadWarp(self.jittered).into(),
+            PatternName::Every => EveryTexel.into(),
+            PatternName::Tent => Tent.into(),
+            PatternName::Centre => Centre.into(),
+            PatternName::Disc => Disc::default().with_num_samples(num_samples).with_density(Density::Uniform).into(),
+        }
+    }
+}

@@ -1,0 +1,23 @@
+/// Why a recipe cannot be read, or not be put over a map: one line that names the field, the value and what was expected.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{field} = {value:?}: expected {expected}")]
+pub struct RecipeError {
+    /// The field; `recipe` for the preset's name, `map` for a map that records another surface.
+    pub field: String,
+    /// What was written.
+    pub value: String,
+    /// What may be written.
+    pub expected: String,
+}
+
+impl RecipeError {
+    /// The same, saying whose recipe it is: `owner` is put before the field.
+    #[must_use]
+    pub fn of(self, owner: &str) -> Self {
+        Self { field: format!("{owner}, {}", self.field), ..self }
+    }
+
+    pub(crate) fn value(field: &str, value: &str, expected: impl Into<String>) -> Self {
+        Self { field: field.into(), value: value.into(), expected: expected.into() }
+    }
+}

@@ -1,0 +1,545 @@
+//! The rows of the table.
+
+use crate::kind::Value;
+use crate::values::{DepthName, PatternName, Rule};
+use crate::{Field, Kind, PresetName};
+use umbrage_depth::SameSurface;
+use umbrage_plane::Bias;
+use umbrage_sample::Density;
+use umbrage_shadow::williams::{DitherLaw, Guard, Lookup};
+use umbrage_shadow::{OccluderFalloff, Radius, Spread, VirtualWhen};
+
+const ALL: &[PresetName] = &PresetName::ALL;
+const CLOSER: &[PresetName] = &[PresetName::Reeves87, PresetName::Reeves87Recommended, PresetName::Woo92];
+const SOFT: &[PresetName] = &[PresetName::Burley, PresetName::Fernando];
+const COMPARED: &[PresetName] = &[
+    PresetName::Reeves87,
+    PresetName::Reeves87Recommended,
+    PresetName::Woo92,
+    PresetName::Burley,
+    PresetName::Fernando,
+];
+const PLANES: &[PresetName] = &[
+    PresetName::Reeves87,
+    PresetName::Reeves87Recommended,
+    PresetName::Woo92,
+    PresetName::WangMolnar94,
+    PresetName::Burley,
+    PresetName::Fernando,
+];
+const REGIONS: &[PresetName] =
+    &[PresetName::Reeves87, PresetName::Reeves87Recommended, PresetName::Woo92, PresetName::WangMolnar94];
+const FACTORS: &[PresetName] = &[
+    PresetName::Reeves87,
+    PresetName::Reeves87Recommended,
+    PresetName::Woo92,
+    PresetName::WangMolnar94,
+    PresetName::Ordinary,
+];
+const CONDITIONAL: &[PresetName] = &[PresetName::WangMolnar94];
+const WILLIAMS: &[PresetName] = &[PresetName::Williams78];
+const SINGLE: &[PresetName] = &[PresetName::Williams78, PresetName::WangMolnar94, PresetName::Ordinary];
+
+/// A field that is one value of the recipe.
+macro_rules! plain {
+    ($name:literal, $of:expr, $kind:expr, |$v:ident| $place:expr, $doc:literal, $source:literal) => {
+        Field {
+            name: $name,
+            of: $of,
+            kind: $kind,
+            doc: $doc,
+            source: $source,
+            set: |$v, text, kind| Value::read(text, kind).map(|value| $place = value).is_some(),
+            get: |$v| Some(Value::write(&$place)),
+        }
+    };
+}
+
+/// A field without which the recipe does as its documentation says.
+macro_rules! optional {
+    ($name:literal, $of:expr, $kind:expr, |$v:ident| $place:expr, $doc:literal, $source:literal) => {
+        Field {
+            name: $name,
+            of: $of,
+            kind: $kind,
+            doc: $doc,
+            source: $source,
+            set: |$v, text, kind| Value::read(text, kind).map(|value| $place = Some(value)).is_some(),
+            get: |$v| $place.as_ref().map(Value::write),
+        }
+    };
+}
+
+/// A field of words, each with what it means.
+macro_rules! words {
+    ($name:literal, $of:expr, [$(($word:literal, $meant:expr)),+ $(,)?], |$v:ident| $place:expr, $doc:literal, $source:literal) => {
+        Field {
+            name: $name,
+            of: $of,
+            kind: Kind::Words(&[$($word),+]),
+            doc: $doc,
+            source: $source,
+            set: |$v, text, _| {
+                match text {
+                    $($word => $place = $meant,)+
+                    _ => return false,
+                }
+                true
+            },
+            get: |$v| {
+                $(if $place == $meant {
+                    return Some($word.into());
+                })+
+                None
+            },
+        }
+    };
+}
+
+/// A field that is more than a value in its place.
+macro_rules! own {
+    ($name:literal, $of:expr, $kind:expr, $set:expr, $get:expr, $doc:literal, $source:literal) => {
+        Field { name: $name, of: $of, kind: $kind, doc: $doc, source: $source, set: $set, get: $get }
+    };
+}
+
+const COUNT: Kind = Kind::Whole(65_536);
+const SHARE: Kind = Kind::UpTo(1.0);
+
+pub const FIELDS: &[Field] = &[
+    words!(
+        "stored",
+        ALL,
+        [
+            ("first", Rule::First),
+            ("second", Rule::Second),
+            ("back-face", Rule::BackFace),
+            ("normals", Rule::Normals),
+            ("midpoint", Rule::Midpoint),
+            ("deep", Rule::Deep),
+        ],
+        |values| values.rule,
+        "which surface of a texel is stored; `normals` are back faces by interpolated normals, `deep` all surfaces",
+        ""
+    ),
+    plain!(
+        "ratio",
+        ALL,
+        Kind::Ratio,
+        |values| values.midpoint.ratio,
+        "midpoints: how far the depth is from the first surface to the second",
+        "Woo 1992"
+    ),
+    plain!(
+        "merge",
+        ALL,
+        Kind::Number,
+        |values| values.midpoint.merge,
+        "midpoints: fraction of the distance within which surfaces are one",
+        "Woo 1992"
+    ),
+    words!(
+        "same",
+        ALL,
+        [("depth", SameSurface::Depth), ("object", SameSurface::Object), ("surface", SameSurface::Surface)],
+        |values| values.midpoint.same,
+        "midpoints: which fragments are one surface; `surface` with several `sub-samples`",
+        "Woo 1992"
+    ),
+    own!(
+        "epsilon",
+        ALL,
+        Kind::BelowOne,
+        |values, text, kind| {
+            let deep = f32::read(text, kind).and_then(|epsilon| values.deep.with_epsilon(epsilon).ok());
+            deep.map(|deep| values.deep = deep).is_some()
+        },
+        |values| Some(values.deep.epsilon().write()),
+        "deep maps: bound on the error of a transmittance",
+        "Burley 2006"
+    ),
+    optional!(
+        "sub-samples",
+        ALL,
+        Kind::Whole(8),
+        |values| values.sub_samples,
+        "samples along a texel's side: deep maps average them (4, rounded down to a power of 2), others keep the nearest surfaces over them (1; not `normals`)",
+        "Woo 1992"
+    ),
+    words!(
+        "pattern",
+        CLOSER,
+        [
+            ("jittered", PatternName::Jittered),
+            ("uniform", PatternName::Uniform),
+            ("gaussian", PatternName::Gaussian),
+            ("inside", PatternName::Inside),
+            ("warp", PatternName::Warp),
+            ("every", PatternName::Every),
+            ("tent", PatternName::Tent),
+            ("centre", PatternName::Centre),
+            ("disc", PatternName::Disc),
+        ],
+        |values| values.pattern,
+        "where in the region one looks",
+        "Reeves 1987, §3"
+    ),
+    words!(
+        "pattern",
+        CONDITIONAL,
+        [("every", PatternName::Every), ("tent", PatternName::Tent)],
+        |values| values.pattern,
+        "how the texels of the region are weighted",
+        "Wang & Molnar 1994"
+    ),
+    plain!(
+        "samples",
+        CLOSER,
+        COUNT,
+        |values| values.jittered.num_samples,
+        "number of samples of a region (`NumSamples`)",
+        "Reeves 1987, Fig. 11"
+    ),
+    plain!(
+        "min-samples",
+        CLOSER,
+        COUNT,
+        |values| values.jittered.min_samples,
+        "least number of samples along an axis (`MinSamples`), at most `samples`",
+        "Reeves 1987, Fig. 11"
+    ),
+    plain!(
+        "jitter",
+        CLOSER,
+        SHARE,
+        |values| values.jittered.jitter,
+        "fraction of its cell over which a sample is moved; 0 is a regular grid",
+        "Reeves 1987, §3.1"
+    ),
+    plain!(
+        "hard-cap",
+        CLOSER,
+        Kind::Switch,
+        |values| values.jittered.hard_cap,
+        "whether `samples` is never exceeded",
+        ""
+    ),
+    words!(
+        "compare",
+        CLOSER,
+        [("float", false), ("integer", true)],
+        |values| values.integer_first,
+        "whether whole units are compared first, which asks for `pattern=jittered`, `depth=constant` and a bias of 0",
+        "Woo 1992"
+    ),
+    plain!(
+        "unit",
+        CLOSER,
+        Kind::Positive,
+        |values| values.unit,
+        "what is counted as one by `compare=integer`, map units",
+        "Woo 1992"
+    ),
+    own!(
+        "nearby",
+        CONDITIONAL,
+        Kind::Words(&["four", "region", "box3", "box4", "box5", "box6", "box7", "box8", "box9"]),
+        |values, text, _| nearby(text)
+            .map(|(factor, size)| (values.res_factor, values.min_size) = (factor, size))
+            .is_some(),
+        |_| None,
+        "a neighbourhood by name: sets `res-factor` and `min-size`",
+        "Wang & Molnar 1994"
+    ),
+    plain!(
+        "res-factor",
+        FACTORS,
+        Kind::Number,
+        |values| values.res_factor,
+        "size of the region, in footprints of the receiver (`ResFactor`)",
+        "Reeves 1987, Fig. 11"
+    ),
+    plain!(
+        "min-size",
+        REGIONS,
+        Kind::Number,
+        |values| values.min_size,
+        "least half-extent of the region, texels (`MinSize`)",
+        "Reeves 1987, Fig. 11"
+    ),
+    own!(
+        "bias",
+        COMPARED,
+        Kind::BiasRange,
+        |values, text, kind| Value::read(text, kind)
+            .map(|(low, high)| (values.biased.low, values.biased.high) = (low, high))
+            .is_some(),
+        |values| Some((values.biased.low, values.biased.high).write()),
+        "moves the receiver toward the light; a range with `depth=constant` alone, world units with `depth=cone`",
+        "Reeves 1987, §3.2"
+    ),
+    own!(
+        "bias",
+        SINGLE,
+        Kind::Bias,
+        |values, text, kind| Bias::read(text, kind)
+            .map(|bias| (values.biased.low, values.biased.high) = (bias, bias))
+            .is_some(),
+        |values| Some(values.biased.low.write()),
+        "moves the receiver toward the light",
+        ""
+    ),
+    words!(
+        "spread",
+        COMPARED,
+        [("random", Spread::Random), ("ramp", Spread::Ramp)],
+        |values| values.biased.spread,
+        "how a tap's bias is taken from the range, with `depth=constant`",
+        "Reeves 1987, §3.2"
+    ),
+    words!(
+        "depth",
+        COMPARED,
+        [("constant", DepthName::Constant), ("plane", DepthName::Plane), ("cone", DepthName::Cone)],
+        |values| values.depth,
+        "which depth is compared: the receiver's own, its tangent plane's or the bias cone's",
+        ""
+    ),
+    plain!(
+        "slope",
+        COMPARED,
+        Kind::Number,
+        |values| values.slope,
+        "the bias cone's tangent, with `depth=cone`",
+        "Burley 2006"
+    ),
+    words!(
+        "radius",
+        COMPARED,
+        [("texel-centre", Radius::TexelCentre), ("nominal", Radius::Nominal)],
+        |values| values.radius,
+        "to where the bias cone measures, with `depth=cone`",
+        "Burley 2006"
+    ),
+    plain!(
+        "slack",
+        PLANES,
+        SHARE,
+        |values| values.slack,
+        "roundings by which a tangent plane is moved",
+        "Wang & Molnar 1994"
+    ),
+    plain!(
+        "reach",
+        PLANES,
+        Kind::Number,
+        |values| values.reach,
+        "most that a tangent plane may leave the receiver's own depth, map units",
+        "Wang & Molnar 1994"
+    ),
+    words!(
+        "virtual",
+        CONDITIONAL,
+        [("mixed", VirtualWhen::Mixed), ("always", VirtualWhen::Always), ("never", VirtualWhen::Never)],
+        |values| values.when,
+        "when the tangent plane is asked",
+        "Wang & Molnar 1994"
+    ),
+    plain!(
+        "min-cos",
+        CONDITIONAL,
+        SHARE,
+        |values| values.min_cos,
+        "least cosine between surface and light at which the plane is asked",
+        "Wang & Molnar 1994"
+    ),
+    words!(
+        "backs",
+        CONDITIONAL,
+        [("shaded", false), ("dark", true)],
+        |values| values.dark_backs,
+        "whether surfaces that face away from the light are left to the shading or dark",
+        "Wang & Molnar 1994"
+    ),
+    plain!("min", SOFT, Kind::Radius, |values| values.min, "radius of the blur at contact", "Burley 2006"),
+    plain!(
+        "max",
+        SOFT,
+        Kind::Radius,
+        |values| values.max,
+        "largest radius of the blur, and the search's",
+        "Burley 2006"
+    ),
+    optional!(
+        "light",
+        SOFT,
+        Kind::Number,
+        |values| values.light,
+        "radius of a disc light, world units (tangent of its angle if directional); instead of `min` and `max`",
+        ""
+    ),
+    optional!(
+        "nearest",
+        SOFT,
+        Kind::Positive,
+        |values| values.nearest,
+        "with `light`: no occluder is nearer to the light, world units; the near plane unless told",
+        ""
+    ),
+    plain!(
+        "search",
+        SOFT,
+        COUNT,
+        |values| values.search.num_samples,
+        "number of taps that look for occluders",
+        "Burley 2006"
+    ),
+    plain!("blur", SOFT, COUNT, |values| values.blur.num_samples, "number of taps that are compared", "Burley 2006"),
+    own!(
+        "rotate",
+        SOFT,
+        Kind::Switch,
+        |values, text, kind| bool::read(text, kind)
+            .map(|on| (values.search.rotate, values.blur.rotate) = (on, on))
+            .is_some(),
+        |values| Some(values.blur.rotate.write()),
+        "whether each region turns the taps by an angle of its own",
+        "Burley 2006"
+    ),
+    own!(
+        "half-offset",
+        SOFT,
+        Kind::Switch,
+        |values, text, kind| bool::read(text, kind)
+            .map(|on| (values.search.half_offset, values.blur.half_offset) = (on, on))
+            .is_some(),
+        |values| Some(values.blur.half_offset.write()),
+        "whether taps begin half a step from the centre",
+        "Burley 2006"
+    ),
+    plain!(
+        "rescue",
+        SOFT,
+        Kind::Switch,
+        |values| values.rescue,
+        "whether a search without an occluder is asked again nearby",
+        ""
+    ),
+    own!(
+        "falloff",
+        SOFT,
+        Kind::Words(&["linear", "smooth", "square", "flat"]),
+        |values, text, _| falloff(text)
+            .map(|(weight, density)| (values.falloff, values.search.density) = (weight, density))
+            .is_some(),
+        |values| ["linear", "smooth", "square", "flat"]
+            .into_iter()
+            .find(|name| falloff(name) == Some((values.falloff, values.search.density)))
+            .map(Into::into),
+        "how the search weighs its taps: `square` is 1 − .9·r², `flat` is their plain mean, evenly spread",
+        "Burley 2006"
+    ),
+    plain!("shape", SOFT, Kind::Positive, |values| values.shape, "exponent of the radius", "Burley 2006"),
+    own!(
+        "opacity",
+        SOFT,
+        Kind::Pair,
+        |values, text, kind| Value::read(text, kind)
+            .map(|(near, far)| values.opacity = values.opacity.with_near(near).with_far(far))
+            .is_some(),
+        |values| Some((values.opacity.near, values.opacity.far).write()),
+        "how dark a shadow is near its occluder and far from it",
+        "Burley 2006"
+    ),
+    plain!(
+        "fade",
+        SOFT,
+        Kind::Positive,
+        |values| values.opacity.fade,
+        "distance over which `opacity` goes from near to far, world units",
+        "Burley 2006"
+    ),
+    plain!("opacity-shape", SOFT, Kind::Positive, |values| values.opacity.gamma, "exponent of that way", "Burley 2006"),
+    own!(
+        "lookup",
+        WILLIAMS,
+        Kind::Words(&["nearest", "bilinear", "faithful"]),
+        |values, text, _| lookup(text).map(|lookup| values.lookup = lookup).is_some(),
+        |values| Some(
+            match values.lookup {
+                Lookup::Nearest => "nearest",
+                Lookup::Bilinear(Guard::Steps(_)) => "bilinear",
+                Lookup::Bilinear(Guard::Faithful) => "faithful",
+            }
+            .into()
+        ),
+        "how the stored depth is read; `faithful` blends across silhouettes too",
+        "Williams 1978"
+    ),
+    own!(
+        "guard",
+        WILLIAMS,
+        Kind::Number,
+        |values, text, kind| f32::read(text, kind)
+            .map(|steps| values.lookup = Lookup::Bilinear(Guard::Steps(steps)))
+            .is_some(),
+        |values| values.guard().map(|steps| steps.write()),
+        "depth steps of difference up to which `bilinear` interpolates, and chooses it",
+        ""
+    ),
+    plain!(
+        "dither",
+        WILLIAMS,
+        Kind::UpTo(2.0),
+        |values| values.dither.amplitude,
+        "full range of a random displacement, texels",
+        "Williams 1978"
+    ),
+    words!(
+        "dither-law",
+        WILLIAMS,
+        [("normal", DitherLaw::TruncatedNormal), ("uniforms", DitherLaw::ThreeUniforms)],
+        |values| values.dither.law,
+        "the law of the displacement",
+        "Williams 1978"
+    ),
+    plain!(
+        "dither-depth",
+        WILLIAMS,
+        Kind::Number,
+        |values| values.dither.depth,
+        "full range of a displacement in depth, map units",
+        "Williams 1978"
+    ),
+];
+
+/// `ResFactor` and least half-extent of a named neighbourhood (WM94-6).
+fn nearby(text: &str) -> Option<(f32, f32)> {
+    match text {
+        "four" => Some((0.0, 1.0)),
+        "region" => Some((1.0, 1.0)),
+        _ => {
+            let side: u8 = text.strip_prefix("box")?.parse().ok()?;
+            (3..=9).contains(&side).then(|| (0.0, 0.5 * f32::from(side)))
+        }
+    }
+}
+
+fn falloff(text: &str) -> Option<(OccluderFalloff, Density)> {
+    match text {
+        "linear" => Some((OccluderFalloff::Linear { rim: 0.1 }, Density::Centred)),
+        "smooth" => Some((OccluderFalloff::Smooth { rim: 0.1 }, Density::Centred)),
+        "square" => Some((OccluderFalloff::Power { rim: 0.1, exponent: 2.0 }, Density::Centred)),
+        "flat" => Some((OccluderFalloff::Flat, Density::Uniform)),
+        _ => None,
+    }
+}
+
+fn lookup(text: &str) -> Option<Lookup> {
+    match text {
+        "nearest" => Some(Lookup::Nearest),
+        "bilinear" => Some(Lookup::Bilinear(Guard::default())),
+        "faithful" => Some(Lookup::Bilinear(Guard::Faithful)),
+        _ => None,
+    }
+}

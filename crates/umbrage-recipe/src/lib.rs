@@ -1,0 +1,37 @@
+//! Shadow algorithms by name.
+//!
+//! A [`Recipe`] is a line of text or a TOML table that names a preset and what differs from it. It bakes the map that it wants from any
+//! triangles, and binds its filter over a map. Everything that can be written stands in one table of [`Field`]s.
+//!
+//! ```
+//! use umbrage_recipe::{Field, PresetName, Recipe};
+//!
+//! let recipe: Recipe = "woo92,samples=32".parse()?;
+//! assert_eq!(recipe.preset(), PresetName::Woo92);
+//! let samples = Field::of(PresetName::Woo92).find(|field| field.name == "samples").unwrap();
+//! assert_eq!(samples.kind.to_string(), "a whole number from 1 to 65536");
+//! assert_eq!(samples.default(PresetName::Woo92).as_deref(), Some("16"));
+//! # Ok::<(), umbrage_recipe::RecipeError>(())
+//! ```
+//!
+//! A filter made by hand is put over a map by [`bind`].
+
+mod bake;
+mod bind;
+mod error;
+mod fields;
+mod kind;
+mod preset;
+mod recipe;
+mod table;
+#[cfg(test)]
+mod tests;
+mod text;
+mod values;
+
+pub use bind::bind;
+pub use error::RecipeError;
+pub use kind::Kind;
+pub use preset::PresetName;
+pub use recipe::Recipe;
+pub use table::{Field, help, markdown};

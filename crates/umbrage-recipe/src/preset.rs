@@ -1,0 +1,69 @@
+use umbrage_depth::Stored;
+
+/// The name that a recipe begins with: a paper's algorithm, or a control.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum PresetName {
+    /// Point by point (Williams 1978).
+    Williams78,
+    /// Percentage closer, biases of a range (Reeves, Salesin & Cook 1987), as the listing sets its parameters.
+    Reeves87,
+    /// The same as the text of the paper advises.
+    Reeves87Recommended,
+    /// Percentage closer without a bias over midpoints (Woo 1992).
+    Woo92,
+    /// The nearest four texels of second surfaces, and the tangent plane where they disagree (Wang & Molnar 1994).
+    WangMolnar94,
+    /// Soft shadows with the bias cone (Burley 2006).
+    Burley,
+    /// Soft shadows with a plain mean and a constant bias (Fernando 2005, as Burley describes it).
+    Fernando,
+    /// Depths filtered first: the control of Reeves 1987, §3.
+    Ordinary,
+}
+
+impl PresetName {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::Williams78,
+        Self::Reeves87,
+        Self::Reeves87Recommended,
+        Self::Woo92,
+        Self::WangMolnar94,
+        Self::Burley,
+        Self::Fernando,
+        Self::Ordinary,
+    ];
+
+    /// The word for it in recipes.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Williams78 => "williams78",
+            Self::Reeves87 => "reeves87",
+            Self::Reeves87Recommended => "reeves87-recommended",
+            Self::Woo92 => "woo92",
+            Self::WangMolnar94 => "wang-molnar94",
+            Self::Burley => "burley",
+            Self::Fernando => "fernando",
+            Self::Ordinary => "ordinary",
+        }
+    }
+
+    /// The one with this [`name`](Self::name); `None` for any other text.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|preset| preset.name() == name)
+    }
+
+    /// The surfaces that the paper's comparison is right over, the one that the preset's own map records first.
+    #[must_use]
+    pub const fn expects(self) -> &'static [Stored] {
+        match self {
+            Self::Woo92 => &[Stored::Midpoint],
+            // The paper finds them in either way.
+            Self::WangMolnar94 => &[Stored::BackFace, Stored::Second],
+            _ => &[Stored::First],
+        }
+    }
+}

@@ -1,0 +1,120 @@
+use crate::values::Values;
+use crate::{PresetName, RecipeError, kind};
+use umbrage_bake::Caster;
+use umbrage_depth::{DepthMap, Map, Storage, Stored};
+use umbrage_plane::View;
+use umbrage_shadow::Shadow;
+
+/// A shadow algorithm by name, as people write it: a preset and what differs from it, such as
+/// `reeves87,samples=16,res-factor=3,bias=0.3..0.4`. Which surface is stored, where one looks and which depth is compared are chosen one by one:
+/// `burley,stored=midpoint` and `woo92,depth=cone,pattern=disc` are recipes too.
+///
+/// | preset | stored | filter |
+/// |---|---|---|
+/// | `williams78` | first | point by point |
+/// | `reeves87`, `reeves87-recommended` | first | percentage closer, biases of a range |
+/// | `woo92` | midpoint | percentage closer, no bias |
+/// | `wang-molnar94` | back-face | nearest four texels, tangent plane where they disagree |
+/// | `burley` | first | soft, bias cone |
+/// | `fernando` | first | soft, plain mean, constant bias |
+/// | `ordinary` | first | depths filtered first: the control |
+///
+/// Units: `t` texels, `w` world units, `s` depth steps, `m` map units, `%` of the map's sides.
+///
+#[doc = include_str!("fields.md")]
+///
+/// ```
+/// use umbrage_recipe::Recipe;
+///
+/// let recipe: Recipe = "reeves87, samples=32, bias=0.3..0.4".parse()?;
+/// // The bias is the preset's own.
+/// assert_eq!(recipe.to_string(), "reeves87,samples=32");
+/// let error = "reeves87,jitter=1.5".parse::<Recipe>().unwrap_err();
+/// assert_eq!(error.to_string(), "jitter = \"1.5\": expected a number from 0 to 1");
+/// # Ok::<(), umbrage_recipe::RecipeError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Recipe {
+    pub(crate) preset: PresetName,
+    pub(crate) values: Values,
+    /// Whether `stored` was written, even if it is the preset's own.
+    pub(crate) names_stored: bool,
+}
+
+impl From<PresetName> for Recipe {
+    fn from(preset: PresetName) -> Self {
+        Self { preset, values: Values::of(preset), names_stored: false }
+    }
+}
+
+impl Recipe {
+    /// The preset that it began with.
+    #[must_use]
+    pub fn preset(&self) -> PresetName {
+        self.preset
+    }
+
+    /// Which surface the maps record that it bakes.
+    #[must_use]
+    pub fn stored(&self) -> Stored {
+        self.values.rule.stored()
+    }
+
+    /// The surfaces over which it may be [bound](Self::bind): the one that `stored` names, or those that the preset expects.
+    #[must_use]
+    pub fn expects(&self) -> Vec<Stored> {
+        if self.names_stored { vec![self.stored()] } else { self.preset.expects().to_vec() }
+    }
+
+    /// Pass 1: the map that this recipe wants of a light's view, from triangles each with what it knows of opacity, colour and normals.
+    ///
+    /// ```
+    /// use glam::{DVec3, UVec2, Vec3};
+    /// use umbrage_depth::Storage;
+    /// use umbrage_plane::{SurfacePoint, View};
+    /// use umbrage_raster::Triangle;
+    /// use umbrage_recipe::Recipe;
+    /// use umbrage_sample::Key;
+    ///
+    /// let lamp = View::perspective(DVec3::Z * 10.0, DVec3::ZERO, DVec3::Y, 1.0, 1.0, 20.0, UVec2::splat(64))?;
+    /// let corners = [(-2.0, -2.0), (2.0, -2.0), (0.0, 2.0)].map(|(x, y)| Vec3::new(x, y, 6.0));
+    /// let recipe: Recipe = "reeves87".parse()?;
+    /// let map = recipe.bake(&lamp, [Triangle { corners, object: 0, sheet: true }]);
+    /// let shadow = recipe.bind(map, Storage::Tiled)?;
+    /// assert_eq!(shadow.fraction(&SurfacePoint::at(Vec3::ZERO, Vec3::Z), Key::new(0, 0, 0)), 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn bake(&self, view: &View, casters: impl IntoIterator<Item: Into<Caster>>) -> Map {
+        self.bake_moments(view, [casters])
+    }
+
+    /// The same over an exposure, `moments` being the triangles at evenly spread times: deep maps hold the mean of them; of maps of one
+    /// surface each texel sees one of them. An empty map of none.
+    pub fn bake_moments<M>(&self, view: &View, moments: impl IntoIterator<Item = M>) -> Map
+    where
+        M: IntoIterator<Item: Into<Caster>>,
+    {
+        self.values.bake(view, moments)
+    }
+
+    /// The algorithm over a map.
+    ///
+    /// # Errors
+    /// When the map records another surface than the recipe [expects](Self::expects): the comparison would be wrong all over, without a word.
+    pub fn bind(&self, map: impl Into<Map>, storage: Storage) -> Result<Box<dyn Shadow>, RecipeError> {
+        let map = map.into();
+        let (expected, found) = (self.expects(), map.stored());
+        if expected.contains(&found) {
+            return Ok(self.bind_any(map, storage));
+        }
+        let names = kind::either(&expected.iter().map(|stored| stored.name()).collect::<Vec<_>>());
+        let by = if self.names_stored { "the recipe's stored=" } else { self.preset.name() };
+        let expected = format!("{names}, as {by} wants it (bind_any takes any map, and so does another stored=)");
+        Err(RecipeError::value("map", found.name(), expected))
+    }
+
+    /// The algorithm over a map, whatever the map records: for mixtures that nobody published.
+    pub fn bind_any(&self, map: impl Into<Map>, storage: Storage) -> Box<dyn Shadow> {
+        self.values.bind(self.preset, map.into().kept(storage))
+    }
+}

@@ -1,0 +1,271 @@
+use crate::{PresetName, RecipeError};
+use umbrage_bake::Deep;
+use umbrage_depth::{Midpoint, Stored};
+use umbrage_plane::Bias;
+use umbrage_sample::{Disc, Jittered};
+use umbrage_shadow::williams::{Dither, Guard, Lookup};
+use umbrage_shadow::{
+    AnyDepth, BiasCone, Biased, Conditional, MapRadius, OccluderFalloff, OnPlane, Opacity, Pcf, Radius, Soft, Softness,
+    Spread, VirtualWhen, Williams, presets,
+};
+
+/// Which surface of a texel is stored, and how it is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    First,
+    Second,
+    BackFace,
+    Normals,
+    Midpoint,
+    Deep,
+}
+
+impl Rule {
+    /// What a map made by this rule records.
+    pub fn stored(self) -> Stored {
+        match self {
+            Self::First | Self::Deep => Stored::First,
+            Self::Second => Stored::Second,
+            Self::BackFace | Self::Normals => Stored::BackFace,
+            Self::Midpoint => Stored::Midpoint,
+        }
+    }
+}
+
+/// Where one looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PatternName {
+    Jittered,
+    Uniform,
+    Gaussian,
+    Inside,
+    Warp,
+    Every,
+    Tent,
+    Centre,
+    Disc,
+}
+
+/// Which depth is compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthName {
+    Constant,
+    Plane,
+    Cone,
+}
+
+/// All that fields can say, whether a recipe's own filter asks for it or not. What it does not ask for stays as the preset has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Values {
+    pub rule: Rule,
+    pub midpoint: Midpoint,
+    pub deep: Deep,
+    /// Samples along a texel's side, where they are given.
+    pub sub_samples: Option<u32>,
+    pub pattern: PatternName,
+    pub jittered: Jittered,
+    pub integer_first: bool,
+    pub unit: f32,
+    pub res_factor: f32,
+    pub min_size: f32,
+    pub depth: DepthName,
+    pub biased: Biased,
+    pub slope: f32,
+    pub radius: Radius,
+    pub slack: f32,
+    pub reach: f32,
+    pub when: VirtualWhen,
+    pub min_cos: f32,
+    pub dark_backs: bool,
+    pub min: MapRadius,
+    pub max: MapRadius,
+    /// Radius of a disc light, which stands for `min` and `max`.
+    pub light: Option<f32>,
+    pub nearest: Option<f32>,
+    pub search: Disc,
+    pub blur: Disc,
+    pub falloff: OccluderFalloff,
+    pub shape: f32,
+    pub opacity: Opacity,
+    pub rescue: bool,
+    pub lookup: Lookup,
+    pub dither: Dither,
+}
+
+impl Values {
+    /// As a preset has them.
+    pub fn of(preset: PresetName) -> Self {
+        let parts = Self::common();
+        match preset {
+            PresetName::Williams78 => {
+                let Williams { bias, lookup, dither, .. } = presets::williams78().filter;
+                Self { biased: Biased::constant(bias), lookup, dither, ..parts }
+            }
+            PresetName::Reeves87 => parts.closer(presets::reeves87().filter),
+            PresetName::Reeves87Recommended => parts.closer(presets::reeves87_recommended().filter),
+            PresetName::Woo92 => Self { rule: Rule::Midpoint, ..parts.closer(presets::woo92().filter) },
+            PresetName::WangMolnar94 => {
+                let Conditional { res_factor, min_size, plane, min_cos, when, dark_backs, .. } =
+                    presets::wang_molnar94().filter;
+                let OnPlane { bias, slack, reach, .. } = plane;
+                let (rule, pattern, biased) = (Rule::BackFace, PatternName::Every, Biased::constant(bias));
+                let parts = Self { rule, pattern, biased, slack, reach, ..parts };
+                Self { res_factor, min_size, min_cos, when, dark_backs, ..parts }
+            }
+            PresetName::Burley => {
+                let soft = presets::burley().filter;
+                let BiasCone { base, slope, radius, .. } = soft.depth;
+                let parts = Self { depth: DepthName::Cone, slope, radius, ..parts.soft(soft) };
+                Self { biased: Biased::constant(Bias::World(base)), ..parts }
+            }
+            PresetName::Fernando => {
+                // One texel: what a constant bias is set to where nothing is known of the scene.
+                let fernando = presets::fernando(Bias::Texels(1.0)).filter;
+                let biased = fernando.depth;
+                Self { depth: DepthName::Constant, biased, ..parts.soft(fernando) }
+            }
+            PresetName::Ordinary => Self { biased: Biased::constant(Bias::ZERO), res_factor: 1.0, ..parts },
+        }
+    }
+
+    /// What presets have that do not say otherwise.
+    fn common() -> Self {
+        let (pcf, cone, plane) = (Pcf::default(), BiasCone::default(), OnPlane::default());
+        let (conditional, williams) = (Conditional::default(), Williams::default());
+        let soft = Soft::default();
+        Self {
+            rule: Rule::First,
+            midpoint: Midpoint::default(),
+            deep: Deep::default(),
+            sub_samples: None,
+            pattern: PatternName::Jittered,
+            jittered: pcf.pattern,
+            integer_first: false,
+            unit: 1.0,
+            res_factor: pcf.res_factor,
+            min_size: pcf.min_size,
+            depth: DepthName::Constant,
+            biased: pcf.depth,
+            slope: cone.slope,
+            radius: cone.radius,
+            slack: plane.slack,
+            reach: plane.reach,
+            when: conditional.when,
+            min_cos: conditional.min_cos,
+            dark_backs: conditional.dark_backs,
+            min: MapRadius::Texels(0.0),
+            max: MapRadius::Texels(0.0),
+            light: None,
+            nearest: None,
+            search: soft.search,
+            blur: soft.blur,
+            falloff: soft.falloff,
+            shape: soft.radius_gamma,
+            opacity: soft.opacity,
+            rescue: soft.rescue,
+            lookup: williams.lookup,
+            dither: williams.dither,
+        }
+    }
+
+    fn closer(self, pcf: Pcf) -> Self {
+        let Pcf { pattern, depth, res_factor, min_size, .. } = pcf;
+        Self { jittered: pattern, biased: depth, res_factor, min_size, ..self }
+    }
+
+    fn soft<D>(self, soft: Soft<D>) -> Self {
+        let Soft { softness, search, blur, falloff, radius_gamma, opacity, rescue, .. } = soft;
+        let parts = match softness {
+            Softness::Between { min, max } => Self { min, max, ..self },
+            Softness::Light { radius, nearest } => Self { light: Some(radius), nearest: Some(nearest), ..self },
+        };
+        Self { search, blur, falloff, shape: radius_gamma, opacity, rescue, ..parts }
+    }
+
+    /// The radii as they are meant together.
+    pub fn softness(&self) -> Softness {
+        match self.light {
+            Some(radius) => Softness::Light { radius, nearest: self.nearest.unwrap_or(0.0) },
+            None => Softness::Between { min: self.min, max: self.max },
+        }
+    }
+
+    pub fn plane(&self) -> OnPlane {
+        OnPlane::default().with_bias(self.biased.low).with_slack(self.slack).with_reach(self.reach)
+    }
+
+    /// The depth that is compared.
+    pub fn compared(&self) -> AnyDepth {
+        match self.depth {
+            DepthName::Constant => self.biased.into(),
+            DepthName::Plane => self.plane().into(),
+            DepthName::Cone => {
+                let base = if let Bias::World(base) = self.biased.low { base } else { 0.0 };
+                BiasCone::default().with_base(base).with_slope(self.slope).with_radius(self.radius).into()
+            }
+        }
+    }
+
+    /// What only all fields together can show; `given` are the names of those that were written.
+    pub fn check(&self, preset: PresetName, given: &[&str]) -> Result<(), RecipeError> {
+        match preset {
+            PresetName::Reeves87 | PresetName::Reeves87Recommended | PresetName::Woo92 => self.check_closer()?,
+            PresetName::Burley | PresetName::Fernando => self.check_soft(given)?,
+            PresetName::Williams78 | PresetName::WangMolnar94 | PresetName::Ordinary => return Ok(()),
+        }
+        self.check_depth()
+    }
+
+    fn check_closer(&self) -> Result<(), RecipeError> {
+        let Jittered { num_samples, min_samples, .. } = self.jittered;
+        if min_samples > num_samples {
+            return Err(RecipeError::value("min-samples", &min_samples.to_string(), "at most samples"));
+        }
+        let plain = self.pattern == PatternName::Jittered && self.biased == Biased::constant(Bias::ZERO);
+        if self.integer_first && !(plain && self.depth == DepthName::Constant) {
+            let expected = "float, unless pattern=jittered, depth=constant, bias=0";
+            return Err(RecipeError::value("compare", "integer", expected));
+        }
+        Ok(())
+    }
+
+    fn check_soft(&self, given: &[&str]) -> Result<(), RecipeError> {
+        let radius = ["min", "max"].into_iter().find(|radius| given.contains(radius));
+        if let (Some(_), Some(field)) = (self.light, radius) {
+            return Err(RecipeError::value(field, "given", "no such field beside light"));
+        }
+        if let (Some(nearest), None) = (self.nearest, self.light) {
+            return Err(RecipeError::value("nearest", &nearest.to_string(), "light too"));
+        }
+        let larger = match (self.min, self.max) {
+            (MapRadius::Texels(min), MapRadius::Texels(max))
+            | (MapRadius::Fraction(min), MapRadius::Fraction(max))
+            | (MapRadius::World(min), MapRadius::World(max)) => min > max,
+            _ => false,
+        };
+        if larger && self.light.is_none() {
+            return Err(RecipeError::value("min", &crate::kind::Value::write(&self.min), "at most max"));
+        }
+        Ok(())
+    }
+
+    fn check_depth(&self) -> Result<(), RecipeError> {
+        let Biased { low, high, spread, .. } = self.biased;
+        let written = || crate::kind::Value::write(&(low, high));
+        if self.depth != DepthName::Constant && low != high {
+            return Err(RecipeError::value("bias", &written(), "one bias, unless depth=constant"));
+        }
+        if self.depth != DepthName::Constant && spread != Spread::default() {
+            return Err(RecipeError::value("spread", "ramp", "none, unless depth=constant"));
+        }
+        if self.depth == DepthName::Cone && !matches!(low, Bias::World(_)) {
+            return Err(RecipeError::value("bias", &written(), "world units, with depth=cone"));
+        }
+        Ok(())
+    }
+
+    /// Depth steps up to which `bilinear` interpolates, where it has such a bound.
+    pub fn guard(&self) -> Option<f32> {
+        if let Lookup::Bilinear(Guard::Steps(steps)) = self.lookup { Some(steps) } else { None }
+    }
+}

@@ -1,0 +1,100 @@
+//! What a recipe bakes, and over which maps it may be put.
+
+use glam::{DVec3, UVec2, Vec3};
+use umbrage_bake::Caster;
+use umbrage_depth::{DepthMap, Map, Raw, Storage, Stored};
+use umbrage_plane::{SurfacePoint, View};
+use umbrage_raster::Triangle;
+use umbrage_recipe::{PresetName, Recipe};
+use umbrage_sample::Key;
+use umbrage_shadow::Shadow;
+
+fn lamp() -> View {
+    View::orthographic(DVec3::Z * 20.0, DVec3::ZERO, DVec3::Y, 8.0, 1.0, 40.0, UVec2::splat(64)).unwrap()
+}
+
+/// A board above a floor: both closed enough to have a second surface under each texel of the board.
+fn boards() -> Vec<Triangle> {
+    let level = |height: f32, half: f32, object: u32, up: bool| {
+        let [a, b, c, d] =
+            [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, y)| Vec3::new(x, y, height));
+        let faces = if up { [[a, b, c], [a, c, d]] } else { [[a, c, b], [a, d, c]] };
+        faces.map(|corners| Triangle::new(corners, object, false))
+    };
+    let levels =
+        [level(5.0, 3.0, 0, true), level(4.0, 3.0, 0, false), level(0.0, 8.0, 1, true), level(-1.0, 8.0, 1, false)];
+    levels.concat()
+}
+
+fn recipe(text: &str) -> Recipe {
+    text.parse().unwrap()
+}
+
+fn at(shadow: &dyn Shadow, x: f32, height: f32) -> f32 {
+    shadow.fraction(&SurfacePoint::at(Vec3::new(x, 0.1, height), Vec3::Z), Key::new(0, 0, 0))
+}
+
+#[test]
+fn every_preset_bakes_the_map_it_expects_and_shadows_by_it() {
+    for preset in PresetName::ALL {
+        let recipe = Recipe::from(preset);
+        let map = recipe.bake(&lamp(), boards());
+        assert!(recipe.expects().contains(&map.stored()), "{preset:?}");
+        for storage in [Storage::Raw, Storage::Bbox, Storage::Tiled] {
+            let shadow = recipe.bind(map.clone(), storage).unwrap();
+            assert_eq!((at(&*shadow, 0.1, 0.0), at(&*shadow, 6.1, 0.0)), (1.0, 0.0), "{preset:?}");
+        }
+    }
+}
+
+#[test]
+fn what_is_baked_records_the_surface_that_stored_names() {
+    let of = |text: &str| recipe(text).bake(&lamp(), boards()).stored();
+    assert_eq!(of("burley,stored=second"), Stored::Second);
+    assert_eq!(of("burley,stored=back-face"), Stored::BackFace);
+    assert_eq!(of("burley,stored=normals"), Stored::BackFace);
+    assert_eq!(of("burley,stored=midpoint,sub-samples=2,same=surface"), Stored::Midpoint);
+    assert_eq!(of("burley,stored=deep"), Stored::First);
+    assert_eq!(recipe("woo92").bake_moments(&lamp(), [boards(), boards()]).stored(), Stored::Midpoint);
+    let none: [Vec<Triangle>; 0] = [];
+    let empty = recipe("woo92").bake_moments(&lamp(), none);
+    assert_eq!((empty.stored(), empty.bytes()), (Stored::Midpoint, 0));
+}
+
+#[test]
+fn a_preset_over_another_surface_is_refused_unless_it_is_meant() {
+    let first = recipe("reeves87").bake(&lamp(), boards());
+    let refused = |text: &str, map: &Map| recipe(text).bind(map, Storage::Tiled).err().map(|error| error.to_string());
+    let error = refused("woo92", &first).unwrap();
+    assert!(error.starts_with("map = \"first\": expected midpoint, as woo92 wants it"), "{error}");
+    assert!(refused("wang-molnar94", &first).unwrap().contains("expected back-face or second, as wang-molnar94"));
+    assert_eq!(refused("woo92,stored=first", &first), None);
+    let midpoints = recipe("woo92").bake(&lamp(), boards());
+    assert!(refused("reeves87", &midpoints).unwrap().contains("\"midpoint\""));
+    assert_eq!(refused("reeves87,stored=midpoint", &midpoints), None);
+    assert!(refused("woo92,stored=first", &midpoints).unwrap().contains("as the recipe's stored= wants it"));
+    let second = recipe("burley,stored=second").bake(&lamp(), boards());
+    assert_eq!(refused("wang-molnar94", &second), None, "the paper finds them either way");
+    // The caller may say so instead.
+    let mixed = recipe("woo92").bind_any(&first, Storage::Tiled);
+    assert_eq!(at(&*mixed, 0.1, 0.0), 1.0);
+    // Maps that are made by hand record first surfaces.
+    let raw = Raw::new(lamp(), vec![5.0; 64 * 64]).unwrap();
+    assert!(recipe("woo92").bind(raw.clone(), Storage::Raw).is_err());
+    assert!(recipe("reeves87").bind(raw, Storage::Raw).is_ok());
+}
+
+#[test]
+fn deep_recipes_take_opacity_and_colour_and_normals_take_normals() {
+    let tinted = boards().into_iter().map(|triangle| {
+        let caster = Caster::from(triangle);
+        if triangle.object == 0 { caster.with_opacity(0.5) } else { caster }
+    });
+    let deep = recipe("reeves87,stored=deep,epsilon=0,bias=0.1");
+    let shadow = deep.bind(deep.bake(&lamp(), tinted), Storage::Tiled).unwrap();
+    assert!((at(&*shadow, 0.1, 0.0) - 0.75).abs() < 1e-6, "two surfaces that each stop half");
+    let by_normals = recipe("wang-molnar94,stored=normals");
+    let turned = boards().into_iter().map(|triangle| Caster::from(triangle).with_normals([Vec3::NEG_Z; 3]));
+    let map = by_normals.bake(&lamp(), turned);
+    assert_eq!(map.depth(glam::IVec2::splat(32)), 15.0, "all face away, so that the nearest counts");
+}
