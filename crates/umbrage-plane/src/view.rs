@@ -1,4 +1,4 @@
-use crate::{Affine, Decode, Kind, Rules, Sampling, Where};
+use crate::{Affine, Decode, Kind, Rules, Sampling, ViewError, Where, look_at};
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, UVec2, Vec2};
 
 /// How eye space is laid on the map.
@@ -13,42 +13,6 @@ pub enum Projection {
     Orthographic {
         /// Half width and half height.
         half: DVec2,
-    },
-}
-
-/// Why a view cannot be made.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ViewError {
-    /// A number of the placement is NaN or infinite, or the directions do not span a frame.
-    #[error("view placement is degenerate: {0}")]
-    Placement(&'static str),
-    /// The field of view or width is not positive and finite, or an angle is not below 180°.
-    #[error("view projection scale ({x}, {y}) is not positive and finite")]
-    Scale {
-        /// Scale in x.
-        x: f64,
-        /// Scale in y.
-        y: f64,
-    },
-    /// Not near < far, both finite, near > 0 in perspective.
-    #[error("view range near = {near}, far = {far} is not usable (near < far, both finite, near > 0 in perspective)")]
-    Range {
-        /// Near distance.
-        near: f64,
-        /// Far distance.
-        far: f64,
-    },
-    /// A cone of light whose tangent is not positive and finite.
-    #[error("view cone tangent {0} is not positive and finite")]
-    Cone(f64),
-    /// A map side of 0 or more than 32,768 texels.
-    #[error("view size {width} x {height} is not within 1..=32768 texels")]
-    Size {
-        /// Columns.
-        width: u32,
-        /// Rows.
-        height: u32,
     },
 }
 
@@ -84,20 +48,26 @@ impl View {
         }
         if !is_rigid(world_to_eye) {
             return Err(ViewError::Placement(
-                "the matrix is no rotation and shift: it scales, shears, mirrors or projects",
+                "the matrix is not a rotation and a shift: it scales, shears, mirrors or projects",
             ));
         }
         let (Projection::Perspective { k: scale } | Projection::Orthographic { half: scale }) = projection;
         if !(scale.is_finite() && scale.cmpgt(DVec2::ZERO).all()) {
             return Err(ViewError::Scale { x: scale.x, y: scale.y });
         }
-        let perspective = matches!(projection, Projection::Perspective { .. });
-        if !(near.is_finite() && far.is_finite() && near < far) || (perspective && near <= 0.0) {
+        if !near.is_finite() {
+            return Err(ViewError::Near(near));
+        }
+        if !far.is_finite() {
+            return Err(ViewError::Far(far));
+        }
+        if matches!(projection, Projection::Perspective { .. }) && near <= 0.0 {
+            return Err(ViewError::NearAtEye(near));
+        }
+        if near >= far {
             return Err(ViewError::Range { near, far });
         }
-        if size.min_element() == 0 || size.max_element() > 32_768 {
-            return Err(ViewError::Size { width: size.x, height: size.y });
-        }
+        ViewError::of_size(size)?;
         Ok(Self {
             world_to_eye,
             eye_to_world: world_to_eye.inverse(),
@@ -115,7 +85,8 @@ impl View {
     /// At `eye`, looking at `target`, `up` upward, `fov` radians over the map's height; square texels.
     ///
     /// # Errors
-    /// As [`View::new`]; also when `eye` equals `target` or `up` is parallel to the direction of view.
+    /// As [`View::new`]; also when `eye`, `target` or `up` is not finite, `eye` equals `target`, `up` is parallel to the
+    /// direction of view, or `fov` is not within (0, π), as it is when degrees are given for radians.
     pub fn perspective(
         eye: DVec3,
         target: DVec3,
@@ -125,16 +96,20 @@ impl View {
         far: f64,
         size: UVec2,
     ) -> Result<Self, ViewError> {
+        ViewError::of_size(size)?;
+        if !(fov > 0.0 && fov < std::f64::consts::PI) {
+            return Err(ViewError::FieldOfView { radians: fov });
+        }
         let k = 1.0 / (0.5 * fov).tan();
-        let aspect = f64::from(size.x) / f64::from(size.y.max(1));
-        let k = if fov < std::f64::consts::PI { DVec2::new(k / aspect, k) } else { DVec2::splat(f64::NAN) };
+        let aspect = f64::from(size.x) / f64::from(size.y);
+        let k = DVec2::new(k / aspect, k);
         Self::new(look_at(eye, target, up)?, Projection::Perspective { k }, near, far, size)
     }
 
     /// Parallel rays from `eye` toward `target`; `half_height` in world units; square texels.
     ///
     /// # Errors
-    /// As [`View::perspective`].
+    /// As [`View::perspective`]; also when `half_height` is not positive and finite.
     pub fn orthographic(
         eye: DVec3,
         target: DVec3,
@@ -144,7 +119,11 @@ impl View {
         far: f64,
         size: UVec2,
     ) -> Result<Self, ViewError> {
-        let aspect = f64::from(size.x) / f64::from(size.y.max(1));
+        ViewError::of_size(size)?;
+        if !(half_height.is_finite() && half_height > 0.0) {
+            return Err(ViewError::HalfHeight(half_height));
+        }
+        let aspect = f64::from(size.x) / f64::from(size.y);
         let half = DVec2::new(half_height * aspect, half_height);
         Self::new(look_at(eye, target, up)?, Projection::Orthographic { half }, near, far, size)
     }
@@ -212,7 +191,7 @@ impl View {
     /// [`ViewError`], unless `factor` is positive and what it makes of the view is usable.
     pub fn scaled(self, factor: f64) -> Result<Self, ViewError> {
         if !(factor.is_finite() && factor > 0.0) {
-            return Err(ViewError::Placement("a scale must be positive and finite"));
+            return Err(ViewError::Factor(factor));
         }
         let mut world_to_eye = self.world_to_eye;
         world_to_eye.w_axis = (world_to_eye.w_axis.truncate() * factor).extend(1.0);
@@ -341,6 +320,23 @@ impl View {
             Projection::Orthographic { half } => (screen * half).extend(-zeta),
         };
         self.eye_to_world.transform_point3(eye)
+    }
+
+    /// The ray through a texel position: its origin and unit direction in the world. In perspective it starts at the eye, so
+    /// that distances along it are radial; in an orthographic view it starts on the near plane and goes straight ahead, so
+    /// that a distance along it plus [`View::near`] is axial. Any finite position has a ray, outside the map too.
+    pub fn ray(&self, texel: DVec2) -> (DVec3, DVec3) {
+        let screen = DVec2::new(2.0, -2.0) * texel / self.size.as_dvec2() + DVec2::new(-1.0, 1.0);
+        match self.projection {
+            Projection::Perspective { k } => {
+                let direction = self.eye_to_world.transform_vector3((screen / k).extend(-1.0));
+                (self.eye_to_world.w_axis.truncate(), direction.normalize())
+            }
+            Projection::Orthographic { half } => {
+                let origin = self.eye_to_world.transform_point3((screen * half).extend(-self.near));
+                (origin, self.ahead().normalize())
+            }
+        }
     }
 
     /// A direction of this view's eye space in the world: for normals that are given in a camera's space (WM94-8). Normals of an object's own
@@ -479,13 +475,4 @@ fn is_rigid(matrix: DMat4) -> bool {
     (rotation * rotation.transpose()).abs_diff_eq(DMat3::IDENTITY, 1e-6)
         && rotation.determinant() > 0.0
         && matrix.row(3) == DVec4::W
-}
-
-fn look_at(eye: DVec3, target: DVec3, up: DVec3) -> Result<DMat4, ViewError> {
-    let forward = (target - eye).try_normalize().ok_or(ViewError::Placement("eye and target coincide"))?;
-    let right =
-        forward.cross(up).try_normalize().ok_or(ViewError::Placement("up is parallel to the direction of view"))?;
-    let up = right.cross(forward);
-    let axes = DMat4::from_cols(right.extend(0.0), up.extend(0.0), (-forward).extend(0.0), DVec4::W);
-    Ok(axes.transpose() * DMat4::from_translation(-eye))
 }
