@@ -80,6 +80,6 @@ pub fn sector_views(eye: DVec3, near: f64, far: f64, sectors: &Sectors) -> Resul
 fn looking(eye: DVec3, ahead: DVec3, up: DVec3, k: DVec2, near: f64, far: f64, size: UVec2) -> Result<View, ViewError> {
     let axes = DMat3::from_cols(ahead.cross(up), up, -ahead);
     let world_to_eye = DMat4::from_mat3(axes.transpose()) * DMat4::from_translation(-eye);
-    let view = View::new(world_to_eye, Projection::Perspective { k }, near, far, size)?;
+    let view = View::new(world_to_eye, Projection::perspective(k), near, far, size)?;
     Ok(view.with_kind(Kind::Radial).with_rules(Rules::AROUND))
 }

@@ -93,7 +93,7 @@ impl View {
         // One margin in front of the near plane, which no depth needs but which keeps it positive.
         let world_to_eye = axes * DMat4::from_translation(-(centre + toward * (half.z + margin)));
         let far = 2.0 * half.z + margin;
-        Self::new(world_to_eye, Projection::Orthographic { half: DVec2::new(half.x, half.y) }, margin, far, size)
+        Self::new(world_to_eye, Projection::orthographic(DVec2::new(half.x, half.y)), margin, far, size)
     }
 }
 

@@ -51,6 +51,14 @@ pub enum ViewError {
         /// Scale in y.
         y: f64,
     },
+    /// The shift of a projection has a coordinate that is NaN or infinite.
+    #[error("view projection shift ({x}, {y}) is not finite")]
+    Shift {
+        /// Shift in x.
+        x: f64,
+        /// Shift in y.
+        y: f64,
+    },
     /// A factor to scale a view by that is not positive and finite.
     #[error("view scale factor {0} is not positive and finite")]
     Factor(f64),

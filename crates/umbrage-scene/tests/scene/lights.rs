@@ -131,7 +131,13 @@ fn lights_that_cannot_be() {
         Light::directional("sun", DVec3::ZERO, DVec3::ZERO, 1.0, 0.0, 1.0, SIZE),
         Err(ViewError::NoDirection { .. })
     ));
-    assert!(matches!(Light::spot("spot", DVec3::Y, DVec3::ZERO, 180.0, 1.0, 2.0, SIZE), Err(ViewError::FieldOfView { .. })));
-    assert!(matches!(Light::point("point", DVec3::Y, DVec3::Y, 60.0, 1.0, 2.0, SIZE), Err(ViewError::NoDirection { .. })));
+    assert!(matches!(
+        Light::spot("spot", DVec3::Y, DVec3::ZERO, 180.0, 1.0, 2.0, SIZE),
+        Err(ViewError::FieldOfView { .. })
+    ));
+    assert!(matches!(
+        Light::point("point", DVec3::Y, DVec3::Y, 60.0, 1.0, 2.0, SIZE),
+        Err(ViewError::NoDirection { .. })
+    ));
     assert!(matches!(Light::point("point", DVec3::Y, DVec3::ZERO, 60.0, 0.0, 2.0, SIZE), Err(ViewError::NearAtEye(_))));
 }
