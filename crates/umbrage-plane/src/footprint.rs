@@ -27,6 +27,7 @@ impl Footprint {
     }
 
     /// The bounding box of four corners.
+    #[inline(always)]
     pub fn around(corners: [Vec2; 4]) -> Self {
         let (mut low, mut high) = (corners[0], corners[0]);
         for corner in corners {

@@ -27,6 +27,7 @@
 
 mod affine;
 mod around;
+mod batch;
 mod builders;
 mod footprint;
 mod named;

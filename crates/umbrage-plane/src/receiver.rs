@@ -144,15 +144,7 @@ impl View {
     pub fn receiver(&self, at: &SurfacePoint) -> Result<Receiver, Where> {
         let eye = self.world_to_eye.transform_point3(at.position);
         let zeta = -eye.z;
-        if self.is_perspective() && (zeta <= 0.0 || zeta.is_nan()) {
-            return Err(Where::Behind);
-        }
-        if zeta < self.near && self.rules.near != Verdict::Compare {
-            return Err(Where::Near);
-        }
-        if zeta > self.far && self.rules.far != Verdict::Compare {
-            return Err(Where::Far);
-        }
+        self.reached(zeta)?;
         let normal = self.world_to_eye.transform_vector3(at.normal.as_dvec3());
         let (toward, slope) = match self.projection {
             Projection::Perspective { .. } => {
@@ -178,8 +170,23 @@ impl View {
         })
     }
 
+    /// The place at an axial distance, when that alone settles the answer.
     #[inline(always)]
-    fn footprint(&self, at: &SurfacePoint, eye: DVec3, centre: Vec2) -> Footprint {
+    pub(crate) fn reached(&self, zeta: f64) -> Result<(), Where> {
+        if self.is_perspective() && (zeta <= 0.0 || zeta.is_nan()) {
+            return Err(Where::Behind);
+        }
+        if zeta < self.near && self.rules.near != Verdict::Compare {
+            return Err(Where::Near);
+        }
+        if zeta > self.far && self.rules.far != Verdict::Compare {
+            return Err(Where::Far);
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    pub(crate) fn footprint(&self, at: &SurfacePoint, eye: DVec3, centre: Vec2) -> Footprint {
         let [first, second, third, _] = at.corner_offsets;
         if second == first && third == first {
             return Footprint::point(centre);
@@ -197,7 +204,13 @@ impl View {
             }
             .as_vec2()
         });
-        let whole = Footprint::around(clipped);
+        self.capped(clipped, centre)
+    }
+
+    /// The footprint of four corners about the image of their region's centre, at most a quarter of the map to each side.
+    #[inline(always)]
+    pub(crate) fn capped(&self, corners: [Vec2; 4], centre: Vec2) -> Footprint {
+        let whole = Footprint::around(corners);
         let most = self.size.as_vec2() * 0.25;
         if whole.half.cmple(most).all() {
             return whole;
