@@ -1,6 +1,8 @@
 //! Many receivers at once. Every step is the one of [`View::receiver`], in its order of operations, over arrays of eight: so
 //! that a compiler makes vector instructions of it, and the same bits.
 
+#![expect(clippy::needless_range_loop, reason = "one index names a lane in several arrays")]
+
 use crate::{Footprint, Kind, Projection, Receiver, SurfacePoint, View, Where, vectorized};
 use glam::{DMat4, DVec2, DVec3, Vec2, Vec3};
 use std::array::from_fn;

@@ -517,10 +517,10 @@ impl View {
         if !(texel.x >= 0.0 && texel.y >= 0.0 && texel.x < size.x && texel.y < size.y) {
             return Where::Outside;
         }
-        if let (Some(cone), Projection::Perspective { k, .. }) = (self.cone, self.projection) {
-            if (self.off_axis(texel.as_dvec2()) / k).length_squared() > cone * cone {
-                return Where::BeyondCone;
-            }
+        if let (Some(cone), Projection::Perspective { k, .. }) = (self.cone, self.projection)
+            && (self.off_axis(texel.as_dvec2()) / k).length_squared() > cone * cone
+        {
+            return Where::BeyondCone;
         }
         Where::Inside
     }
