@@ -5,7 +5,7 @@ use crate::{Filter, Probe, Query};
 use fearless_simd::Simd;
 use glam::Vec3;
 use umbrage_depth::{DepthMap, Translucent};
-use umbrage_plane::{Receiver, SurfacePoint, View, Where, vectorized};
+use umbrage_plane::{Receiver, SurfacePoint, Where, vectorized};
 use umbrage_sample::Key;
 
 /// Points that are brought into the light's space together: enough for a call to cost nothing, few enough to stay in the cache.
@@ -68,7 +68,7 @@ fn batch<S: Simd, F: Filter, M: DepthMap, P: Probe>(
     let mut seen = [Err(Where::Behind); TOGETHER];
     for (points, fractions) in at.chunks(TOGETHER).zip(out.chunks_mut(TOGETHER)) {
         let seen = &mut seen[..points.len()];
-        receivers(simd, view, points, seen);
+        view.receivers(points, seen);
         for ((point, seen), fraction) in points.iter().zip(seen).zip(fractions) {
             *fraction = match seen {
                 Ok(receiver) => {
@@ -82,15 +82,6 @@ fn batch<S: Simd, F: Filter, M: DepthMap, P: Probe>(
             };
         }
     }
-}
-
-/// What the view sees of the points, compiled once for each set of instructions, whatever the filter.
-#[inline(never)]
-fn receivers<S: Simd>(simd: S, view: &View, points: &[SurfacePoint], seen: &mut [Result<Receiver, Where>]) {
-    simd.vectorize(
-        #[inline(always)]
-        || view.receivers(points, seen),
-    );
 }
 
 impl<F: Filter, M: DepthMap> Shadow for ShadowMap<F, M> {
