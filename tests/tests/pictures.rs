@@ -33,7 +33,7 @@ fn bits(picture: &Picture) -> Vec<u32> {
 fn shot(scene: &Scene, recipe: &str, storage: Storage, frame: &Frame) -> Picture {
     let recipe: Recipe = recipe.parse().unwrap();
     let shadows: Vec<Box<dyn Shadow>> =
-        scene.lights.iter().map(|light| recipe.bind(map(scene, &light.view), storage)).collect();
+        scene.lights.iter().map(|light| recipe.bind(map(scene, &light.view), storage).unwrap()).collect();
     let shadows: Vec<&dyn Shadow> = shadows.iter().map(AsRef::as_ref).collect();
     picture(scene, &shadows, frame)
 }

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use umbrage_depth::Storage;
 use umbrage_oracle::{Geometry, RayCast, metrics};
 use umbrage_plane::View;
-use umbrage_recipe::{Recipe};
-use umbrage_render::{Frame, NOTHING, Picture, picture};
+use umbrage_recipe::Recipe;
+use umbrage_render::{Frame, NOTHING, Picture, light_map, picture};
 use umbrage_scene::{Scene, gallery};
 
 /// Pixels nearer than this to a silhouette that the light sees are not judged, texels.
@@ -60,7 +60,11 @@ fn wm94_1_wm94_13_closed_solids_never_shadow_themselves_without_a_bias() {
                 let geometry = Geometry::new(&scene, &scene.camera);
                 picture(&scene, &[&RayCast::new(&geometry, &light)], &Frame::CENTRES)
             });
-            let found = picture(&scene, &[&*recipe.bind(recipe.bake(&scene, &light), Storage::Tiled)], &Frame::CENTRES);
+            let found = picture(
+                &scene,
+                &[&*recipe.bind(light_map(&recipe, &scene, &light), Storage::Tiled).unwrap()],
+                &Frame::CENTRES,
+            );
             let judged = judged(&scene, truth);
             assert!(judged.len() > 1000, "{name}, {texels}²: only {} pixels to judge", judged.len());
             let dark: Vec<usize> = judged.iter().copied().filter(|&i| found.shadow[0][i] > 0.0).collect();

@@ -6,7 +6,7 @@ use umbrage_depth::{BackFace, DepthMap, Second, Storage, Tiled};
 use umbrage_oracle::metrics;
 use umbrage_plane::TexelRect;
 use umbrage_raster::Cull;
-use umbrage_recipe::{Recipe};
+use umbrage_recipe::Recipe;
 use umbrage_render::{Frame, Soup, picture};
 use umbrage_scene::{Material, Mesh, Object, Scene, gallery};
 
@@ -34,7 +34,7 @@ fn wm94_2_in_each_other_builders_differ_inside_and_shadows_agree_on_the_union() 
     assert!(apart > 500, "hidden fronts are second surfaces too: {apart}");
     let recipe: Recipe = "wang-molnar94".parse().unwrap();
     let shot = |map: &Tiled| {
-        let shadow = recipe.bind(map, Storage::Tiled);
+        let shadow = recipe.bind(map, Storage::Tiled).unwrap();
         let camera = scene.camera.with_size(UVec2::splat(160)).unwrap();
         picture(&Scene { camera, ..scene.clone() }, &[&*shadow], &Frame::CENTRES)
     };

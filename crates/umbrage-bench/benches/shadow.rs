@@ -7,6 +7,7 @@ use std::hint::black_box;
 use umbrage_depth::Storage;
 use umbrage_plane::SurfacePoint;
 use umbrage_recipe::Recipe;
+use umbrage_render::light_map;
 use umbrage_sample::Key;
 use umbrage_scene::gallery;
 
@@ -46,9 +47,9 @@ fn filters(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(format!("shadow/{name}"));
         group.throughput(Throughput::Elements(points.len() as u64));
         let recipe: Recipe = text.parse().expect("a recipe");
-        let map = recipe.bake(&scene, &view);
+        let map = light_map(&recipe, &scene, &view);
         for (kept, storage) in [("raw", Storage::Raw), ("bbox", Storage::Bbox), ("tiled32", Storage::Tiled)] {
-            let shadow = recipe.bind(&map, storage);
+            let shadow = recipe.bind(&map, storage).expect("the recipe's own map");
             shadow.fractions(&points, key, &mut out);
             let dark = out.iter().sum::<f32>() / out.len() as f32;
             assert!((0.12..0.3).contains(&dark), "{name}: {dark} of the plane is dark");

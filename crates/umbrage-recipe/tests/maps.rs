@@ -75,7 +75,7 @@ fn a_preset_over_another_surface_is_refused_unless_it_is_meant() {
     assert!(refused("woo92,stored=first", &midpoints).unwrap().contains("as the recipe's stored= wants it"));
     let second = recipe("burley,stored=second").bake(&lamp(), boards());
     assert_eq!(refused("wang-molnar94", &second), None, "the paper finds them either way");
-    // The caller may say so instead; half of the board's lit top is then dark.
+    // The caller may say so instead.
     let mixed = recipe("woo92").bind_any(&first, Storage::Tiled);
     assert_eq!(at(&*mixed, 0.1, 0.0), 1.0);
     // Maps that are made by hand record first surfaces.

@@ -5,8 +5,8 @@ use umbrage_bake::{bake, bake_by_normals, bake_multi, bake_tags};
 use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Midpoint, Same, Second, Tiled};
 use umbrage_plane::{Sampling, SurfacePoint, TexelRect, View};
 use umbrage_raster::Cull;
-use umbrage_recipe::{Recipe};
-use umbrage_render::{Frame, Soup, picture};
+use umbrage_recipe::Recipe;
+use umbrage_render::{Frame, Soup, light_map, picture};
 use umbrage_scene::{Material, Mesh, Object, Scene, gallery};
 use umbrage_shadow::Shadow;
 
@@ -177,7 +177,7 @@ fn w92_11_memory_does_not_grow_with_the_number_of_objects() {
         let recipe: Recipe = recipe.parse().unwrap();
         // From straight above: all panes cover the same texels.
         let above = View::orthographic(DVec3::Z * 99.0, DVec3::ZERO, DVec3::Y, 30.0, 1.0, 200.0, UVec2::splat(128));
-        recipe.bake(&scene, &above.unwrap()).bytes()
+        light_map(&recipe, &scene, &above.unwrap()).bytes()
     };
     for recipe in ["reeves87", "woo92", "wang-molnar94", "wang-molnar94,stored=second"] {
         assert!(bytes(1, recipe) > 4096);
@@ -255,8 +255,8 @@ fn t_1_w92_9_a_single_sheet_over_a_floor_that_is_left_out_loses_its_shadow_to_mi
         let view = view(&scene, 256);
         let away = (DVec3::new(0.0, 0.0, 20.0) - view.light().truncate()).normalize();
         let under = DVec3::new(0.0, 0.0, 20.0) + away * (20.0 / -away.z);
-        let map = recipe.bake(&scene, &view);
-        let shadow = recipe.bind(map, umbrage_depth::Storage::Tiled);
+        let map = light_map(&recipe, &scene, &view);
+        let shadow = recipe.bind(map, umbrage_depth::Storage::Tiled).unwrap();
         shadow.fraction(&SurfacePoint::at(under.as_vec3(), Vec3::Z), umbrage_sample::Key::new(0, 0, 0))
     };
     assert_eq!(shadow(sheet(20.0), false), 0.0, "one surface is none");

@@ -11,8 +11,8 @@ use std::sync::Arc;
 use umbrage_depth::{DepthMap, Raw, Tiled};
 use umbrage_oracle::predict;
 use umbrage_plane::{SurfacePoint, View};
-use umbrage_recipe::{Recipe};
-use umbrage_render::{Frame};
+use umbrage_recipe::Recipe;
+use umbrage_render::Frame;
 use umbrage_report::diagram::{Diagram, Ink, Mark};
 use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::{Made, Measure};
@@ -77,7 +77,7 @@ impl Slope {
 
 fn shaded(cx: &Context, map: &Arc<Tiled>, points: &[SurfacePoint], depth: &str) -> anyhow::Result<f64> {
     let recipe: Recipe = format!("{DISC},{depth}").parse()?;
-    Ok(mean_shadow(cx, &*recipe.bind(map, cx.storage), points))
+    Ok(mean_shadow(cx, &*recipe.bind(map, cx.storage)?, points))
 }
 
 /// Names of the cones and constant biases in the sweep, and their recipes at a slope.

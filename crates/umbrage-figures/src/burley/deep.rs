@@ -13,8 +13,8 @@ use umbrage_bake::Deep;
 use umbrage_depth::{DeepMap, DepthMap, Map, Step, compress};
 use umbrage_oracle::{Geometry, Mean, RayCast, metrics};
 use umbrage_plane::{TexelRect, View};
-use umbrage_recipe::{Recipe};
-use umbrage_render::{Frame, Picture, expose_deep};
+use umbrage_recipe::Recipe;
+use umbrage_render::{Frame, Picture, expose_deep, exposed_map};
 use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::{Made, Measure, Panel, Role};
 use umbrage_scene::{Scene, gallery};
@@ -90,7 +90,7 @@ impl Case {
 
     fn bake(&self) -> anyhow::Result<(Recipe, Arc<DeepMap>)> {
         let recipe: Recipe = self.recipe().parse()?;
-        match recipe.bake_moments(&self.moments.iter().collect::<Vec<_>>(), self.view()) {
+        match exposed_map(&recipe, &self.moments.iter().collect::<Vec<_>>(), self.view()) {
             Map::Deep(map) => Ok((recipe, map)),
             _ => anyhow::bail!("a deep recipe bakes a deep map"),
         }
@@ -115,7 +115,7 @@ fn deep(cx: &Context) -> anyhow::Result<Made> {
     for case in &cases {
         let name = case.name;
         let (recipe, map) = case.bake()?;
-        let picture = case.set.draw(cx, &*recipe.bind(map.clone(), cx.storage), &Frame::default());
+        let picture = case.set.draw(cx, &*recipe.bind(map.clone(), cx.storage)?, &Frame::default());
         let truth = case.truth(cx);
         let floor = of(&truth, |id| id == case.floor);
         let rms = value(metrics::rms(&picture.shadow[0], &truth.shadow[0], &floor));

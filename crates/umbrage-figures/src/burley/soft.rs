@@ -8,8 +8,8 @@ use crate::stage::set::Set;
 use glam::{DVec3, Vec3};
 use umbrage_oracle::{Geometry, metrics, predict};
 use umbrage_plane::SurfacePoint;
-use umbrage_recipe::{Recipe};
-use umbrage_render::{Frame};
+use umbrage_recipe::Recipe;
+use umbrage_render::{Frame, light_map};
 use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::text::short;
 use umbrage_report::{Made, Measure, Role, Table};
@@ -88,7 +88,7 @@ fn recipes(set: &Set) -> [(&'static str, &'static str, String); 4] {
 /// A recipe over its own map of light 0.
 pub fn bound(cx: &Context, set: &Set, recipe: &str) -> anyhow::Result<Box<dyn Shadow>> {
     let recipe: Recipe = recipe.parse()?;
-    Ok(recipe.bind(recipe.bake(&set.scene, &set.scene.lights[0].view), cx.storage))
+    Ok(recipe.bind(light_map(&recipe, &set.scene, &set.scene.lights[0].view), cx.storage)?)
 }
 
 /// Floor close behind the box, where its shadow begins.

@@ -7,8 +7,8 @@ use crate::stage::penumbra::{Edge, axial, burley_max};
 use crate::stage::set::Set;
 use glam::{DVec3, Vec3};
 use umbrage_oracle::{metrics::Profile, predict};
-use umbrage_recipe::{Recipe};
-use umbrage_render::{Frame};
+use umbrage_recipe::Recipe;
+use umbrage_render::{Frame, light_map};
 use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::{Made, Measure};
 use umbrage_scene::gallery;
@@ -56,7 +56,7 @@ fn widths(cx: &Context) -> anyhow::Result<Made> {
     let mut ramps = Vec::new();
     for (name, caption, recipe) in &recipes {
         let parsed: Recipe = recipe.parse()?;
-        let shadow = parsed.bind(parsed.bake(&set.scene, &view), cx.storage);
+        let shadow = parsed.bind(light_map(&parsed, &set.scene, &view), cx.storage)?;
         let found = BOARDS.map(|(board, height, z)| {
             let profile = edge(height, z).profile(cx, &*shadow);
             (board, in_texels(&profile, texel), profile.width().unwrap_or(f64::NAN) / texel)

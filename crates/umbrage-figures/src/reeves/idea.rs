@@ -115,7 +115,7 @@ fn two_orders(cx: &Context) -> anyhow::Result<Made> {
     let region = SurfacePoint { corners, ..SurfacePoint::at(position, normal) };
     let ask = |recipe: &str| -> anyhow::Result<f64> {
         let recipe: umbrage_recipe::Recipe = recipe.parse()?;
-        Ok(f64::from(recipe.bind(&map, cx.storage).fraction(&region, Key::new(cx.seed, 0, 0))))
+        Ok(f64::from(recipe.bind(&map, cx.storage)?.fraction(&region, Key::new(cx.seed, 0, 0))))
     };
     let mean = depths.iter().map(|&d| f64::from(d)).sum::<f64>() / 9.0;
     let size = UVec2::splat(3);

@@ -7,8 +7,8 @@ use crate::stage::set::Set;
 use glam::{DVec3, UVec2, Vec3};
 use umbrage_oracle::metrics::Profile;
 use umbrage_oracle::{Geometry, predict};
-use umbrage_recipe::{Recipe};
-use umbrage_render::{Frame};
+use umbrage_recipe::Recipe;
+use umbrage_render::{Frame, light_map};
 use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::{Made, Measure};
 use umbrage_scene::{Light, gallery};
@@ -44,7 +44,7 @@ fn rms(a: &Profile, b: &Profile) -> f64 {
 
 fn bound(cx: &Context, set: &Set, recipe: &str) -> anyhow::Result<Box<dyn Shadow>> {
     let recipe: Recipe = recipe.parse()?;
-    Ok(recipe.bind(recipe.bake(&set.scene, &set.scene.lights[0].view), cx.storage))
+    Ok(recipe.bind(light_map(&recipe, &set.scene, &set.scene.lights[0].view), cx.storage)?)
 }
 
 /// A size of the light under one recipe: widths and error against rays.

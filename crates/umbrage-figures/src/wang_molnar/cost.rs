@@ -9,8 +9,7 @@ use std::time::Instant;
 use umbrage_bake::bake;
 use umbrage_depth::{BackFace, DepthRule, First};
 use umbrage_raster::Cull;
-use umbrage_recipe::{Recipe};
-use umbrage_render::{Frame, Picture, Soup};
+use umbrage_render::{Frame, Picture, Soup, light_map};
 use umbrage_report::{Made, Measure, Panel, Role, Table};
 use umbrage_sample::Key;
 use umbrage_scene::gallery;
@@ -18,7 +17,7 @@ use umbrage_shadow::{Counters, ShadowMap, presets};
 
 /// Share of a picture's points that second depths compare on their tangent planes (M9).
 fn virtual_share(cx: &Context, set: &Set, seen: &Picture, dark_backs: bool) -> anyhow::Result<f64> {
-    let map = SECOND.parse::<Recipe>()?.bake(&set.scene, &set.scene.lights[0].view);
+    let map = light_map(&SECOND.parse()?, &set.scene, &set.scene.lights[0].view);
     let points = points_of(seen);
     let mut counters = Counters::default();
     let shadow = ShadowMap { filter: presets::wang_molnar94().with_dark_backs(dark_backs), map };

@@ -9,7 +9,7 @@ use umbrage_depth::{First, Tiled};
 use umbrage_oracle::predict;
 use umbrage_oracle::{Geometry, RayCast};
 use umbrage_plane::{Bias, SurfacePoint};
-use umbrage_recipe::{bind};
+use umbrage_recipe::bind;
 use umbrage_render::{NOTHING, Picture};
 use umbrage_report::diagram::{Diagram, Ink, Mark};
 use umbrage_report::plot::{Axis, Plot, Series};

@@ -11,7 +11,7 @@ use umbrage_bake::bake_tags;
 use umbrage_depth::{TagMap, Tiled};
 use umbrage_oracle::{metrics, predict};
 use umbrage_plane::{SurfacePoint, TexelRect, View, mix32};
-use umbrage_recipe::{Recipe};
+use umbrage_recipe::Recipe;
 use umbrage_render::{Frame, Picture, Soup};
 use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::{Made, Measure, Panel, Role, Table};
@@ -180,7 +180,7 @@ const CLEAN: f64 = 1e-3;
 fn false_shadow(cx: &Context, map: &Arc<Tiled>, normal: DVec3, radius: f64, bias: f64) -> anyhow::Result<f64> {
     let points = cx.pick(6000, 1500);
     let recipe: Recipe = format!("reeves87,samples=64,res-factor=0,min-size={radius},bias={bias}").parse()?;
-    let shadow = recipe.bind(map, cx.storage);
+    let shadow = recipe.bind(map, cx.storage)?;
     let key = Key::new(cx.seed, 0, 0);
     let place = |i, axis| f64::from(key.signed(i, axis)) * 7.0;
     let receivers: Vec<SurfacePoint> = (0..points)

@@ -12,7 +12,7 @@ use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Raw, Reduction, Second
 use umbrage_oracle::metrics;
 use umbrage_plane::{Decode, Facet, SurfacePoint};
 use umbrage_raster::Cull;
-use umbrage_recipe::{bind};
+use umbrage_recipe::bind;
 use umbrage_render::{Frame, NOTHING, Picture, Soup};
 use umbrage_report::diagram::{Diagram, Ink, Mark};
 use umbrage_report::plot::{Axis, Plot, Series};

@@ -7,8 +7,8 @@ use crate::stage::set::Set;
 use glam::{DVec3, UVec2, Vec3};
 use umbrage_oracle::{BiasCase, BiasSearch, gap_on_surface, metrics, predict};
 use umbrage_plane::{SurfacePoint, View};
-use umbrage_recipe::{Recipe};
-use umbrage_render::{Frame, NOTHING, Picture};
+use umbrage_recipe::Recipe;
+use umbrage_render::{Frame, NOTHING, Picture, light_map};
 use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::{Made, Measure, Panel, Role};
 use umbrage_sample::Key;
@@ -109,13 +109,13 @@ impl Foot {
 
     pub fn first(&self, cx: &Context, bias: f64) -> anyhow::Result<Found> {
         let recipe: Recipe = first(bias).parse()?;
-        Ok(self.judge(cx, &*recipe.bind(&self.set.map, cx.storage)))
+        Ok(self.judge(cx, &*recipe.bind(&self.set.map, cx.storage)?))
     }
 
     pub fn second(&self, cx: &Context) -> anyhow::Result<Found> {
         let recipe: Recipe = SECOND.parse()?;
-        let map = recipe.bake(&self.set.scene, &self.set.scene.lights[0].view);
-        Ok(self.judge(cx, &*recipe.bind(map, cx.storage)))
+        let map = light_map(&recipe, &self.set.scene, &self.set.scene.lights[0].view);
+        Ok(self.judge(cx, &*recipe.bind(map, cx.storage)?))
     }
 
     /// What theory needs to know of it.
