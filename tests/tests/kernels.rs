@@ -7,7 +7,7 @@ use umbrage_sample::{
     AnyPattern, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Tent,
     Uniform, each_tap,
 };
-use umbrage_shadow::{AnyDepth, Biased, Cone, Filter, OnPlane, Pcf, Radius, ReceiverDepth, ShadowMap};
+use umbrage_shadow::{AnyDepth, BiasCone, Biased, Filter, OnPlane, Pcf, Radius, ReceiverDepth, ShadowMap};
 use umbrage_tests::laws::{KEY, baked, receivers};
 
 fn ask<F: Filter>(filter: &F, map: &Map, receiver: &Receiver, key: Key) -> f32 {
@@ -74,8 +74,8 @@ fn r87_13_r87_22_simd_and_culling_agree_with_one_tap_at_a_time() {
 #[test]
 fn r87_22_culling_changes_no_answer_whatever_depth_is_compared() {
     let depths: [(&str, AnyDepth); 3] = [
-        ("cone", Cone::default().into()),
-        ("nominal", Cone::default().with_radius(Radius::Nominal).with_base(0.1).with_slope(0.5).into()),
+        ("cone", BiasCone::default().into()),
+        ("nominal", BiasCone::default().with_radius(Radius::Nominal).with_base(0.1).with_slope(0.5).into()),
         ("near plane", OnPlane::default().with_slack(1.0).with_reach(0.5).into()),
     ];
     for kind in [Kind::Axial, Kind::Screen, Kind::Radial] {
@@ -99,8 +99,12 @@ fn bounds_enclose_every_compared_depth() {
         encloses("plane", &OnPlane::biased(Bias::World(0.2)), &map);
         encloses("near plane", &OnPlane::default().with_slack(1.0).with_reach(0.25).with_bias(Bias::Texels(0.5)), &map);
         encloses("biased", &Biased::default(), &map);
-        encloses("cone", &Cone::default(), &map);
-        encloses("nominal cone", &Cone::default().with_base(0.3).with_slope(1.0).with_radius(Radius::Nominal), &map);
+        encloses("cone", &BiasCone::default(), &map);
+        encloses(
+            "nominal cone",
+            &BiasCone::default().with_base(0.3).with_slope(1.0).with_radius(Radius::Nominal),
+            &map,
+        );
     }
 }
 

@@ -1,6 +1,7 @@
 //! From scene to picture: what must not change a bit, and what lights and objects do to it.
 
 use glam::{UVec2, Vec3};
+use std::sync::Arc;
 use umbrage_bake::{advised_map_sizes, bake};
 use umbrage_depth::{First, Raw, Storage, Tiled};
 use umbrage_plane::{Bias, Sampling, View};
@@ -18,7 +19,7 @@ fn small(mut scene: Scene, pixels: u32, texels: u32) -> Scene {
     scene
 }
 
-fn map(scene: &Scene, view: &View) -> Tiled {
+fn map(scene: &Scene, view: &View) -> Arc<Tiled> {
     bake(view, Soup::casters(scene, view).triangles(), &First, Cull::None).map
 }
 
@@ -26,7 +27,7 @@ fn map(scene: &Scene, view: &View) -> Tiled {
 fn bits(picture: &Picture) -> Vec<u32> {
     let colour = picture.colour.iter().flat_map(|c| <[f32; 3]>::from(*c));
     let shadow = picture.shadow.iter().flatten().copied();
-    let place = picture.position.iter().flat_map(|p| <[f32; 3]>::from(*p));
+    let place = picture.position.iter().flat_map(|p| <[f32; 3]>::from(p.as_vec3()));
     colour.chain(shadow).chain(place).chain(picture.depth.iter().copied()).map(f32::to_bits).collect()
 }
 
@@ -75,13 +76,13 @@ fn r87_5_an_excluded_plane_still_receives_and_does_not_shadow_itself() {
     scene.objects[1].casts = false;
     let map = map(&scene, &scene.lights[0].view);
     // Without bias the casting plane would be half in false shadow.
-    let shadow = bind(presets::ordinary(Bias::ZERO), &map, Storage::Tiled);
+    let shadow = bind(presets::ordinary(Bias::ZERO).filter, &map, Storage::Tiled);
     let seen = picture(&scene, &[&*shadow], &Frame::CENTRES);
     let on_plane =
         |wanted: f32| (0..seen.object.len()).filter(|&i| seen.object[i] == 1 && seen.shadow[0][i] == wanted).count();
     assert!(on_plane(1.0) > 100 && on_plane(0.0) > 1000, "{} dark, {} lit", on_plane(1.0), on_plane(0.0));
     let with_plane = bind(
-        presets::ordinary(Bias::ZERO),
+        presets::ordinary(Bias::ZERO).filter,
         self::map(&small(gallery::sphere_plane(), 64, 256), &scene.lights[0].view),
         Storage::Tiled,
     );
@@ -154,7 +155,7 @@ fn w78_1_w78_2_two_views_of_512_with_16_bit_depth_and_a_light_at_infinity() {
     let light = &scene.lights[0].view;
     assert_eq!((scene.camera.size(), light.size()), (UVec2::splat(512), UVec2::splat(512)));
     assert!(!light.is_perspective(), "the light is at infinity");
-    let map = umbrage_depth::quantise(&Raw::from(&map(&scene, light)), 16, false);
+    let map = umbrage_depth::quantise(&Raw::copy_of(&map(&scene, light)), 16, false);
     let mut codes = 0;
     for depth in map.depths().iter().filter(|depth| depth.is_finite()) {
         let code = f64::from(*depth) * 65_535.0;
@@ -162,7 +163,7 @@ fn w78_1_w78_2_two_views_of_512_with_16_bit_depth_and_a_light_at_infinity() {
         codes += 1;
     }
     assert!(codes > 10_000);
-    assert_eq!(presets::williams78().bias, Bias::Map(2.0 / 65_535.0));
+    assert_eq!(presets::williams78().filter.bias, Bias::Map(2.0 / 65_535.0));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Wang & Molnar's promise: scenes of closed solids need no bias.
 
-use glam::{UVec2, Vec3};
+use glam::{DVec3, UVec2};
 use std::fmt::Write;
 use umbrage_depth::Storage;
 use umbrage_oracle::{Geometry, RayCast, metrics};
@@ -20,8 +20,8 @@ fn sized(mut scene: Scene, texels: u32) -> Scene {
 
 /// How far a position lies within the light's cone, texels; +∞ without a cone. Beyond it all is dark: its rim is an edge of true shadow that
 /// no silhouette throws.
-fn within_cone(light: &View, at: Vec3) -> f64 {
-    let eye = light.world_to_eye().transform_point3(at.as_dvec3());
+fn within_cone(light: &View, at: DVec3) -> f64 {
+    let eye = light.world_to_eye().transform_point3(at);
     let reach = light.cone().map_or(f64::INFINITY, |tan| -eye.z * tan);
     (reach - eye.truncate().length()) / light.texel_world(-eye.z).max_element()
 }

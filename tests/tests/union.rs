@@ -1,6 +1,7 @@
 //! Solids that reach into each other: what second surfaces they have, and that shadows do not show it.
 
-use glam::{UVec2, Vec3};
+use glam::{DVec3, UVec2, Vec3};
+use std::sync::Arc;
 use umbrage_bake::bake;
 use umbrage_depth::{BackFace, DepthMap, Second, Storage, Tiled};
 use umbrage_oracle::metrics;
@@ -18,6 +19,7 @@ fn wm94_2_in_each_other_builders_differ_inside_and_shadows_agree_on_the_union() 
     let block = |low: [f32; 3], high: [f32; 3]| Object::solid("block", Mesh::cuboid(low.into(), high.into()), GREY);
     let scene = Scene {
         name: "union".into(),
+        origin: DVec3::ZERO,
         objects: vec![
             block([-20.0, -10.0, 12.0], [0.0, 10.0, 26.0]),
             block([-12.0, -6.0, 18.0], [10.0, 14.0, 34.0]),
@@ -33,7 +35,7 @@ fn wm94_2_in_each_other_builders_differ_inside_and_shadows_agree_on_the_union() 
     let apart = texels.filter(|texel| second.depth(*texel) != back.depth(*texel)).count();
     assert!(apart > 500, "hidden fronts are second surfaces too: {apart}");
     let recipe: Recipe = "wang-molnar94".parse().unwrap();
-    let shot = |map: &Tiled| {
+    let shot = |map: &Arc<Tiled>| {
         let shadow = recipe.bind(map, Storage::Tiled).unwrap();
         let camera = scene.camera.with_size(UVec2::splat(160)).unwrap();
         picture(&Scene { camera, ..scene.clone() }, &[&*shadow], &Frame::CENTRES)

@@ -2,9 +2,9 @@ use crate::Caster;
 use glam::{DVec3, UVec2, Vec3};
 use rayon::prelude::*;
 use std::cmp::Ordering;
-use umbrage_depth::{DeepMap, MapError, Step, compress};
+use umbrage_depth::{DeepMap, MapError, Step, compress_steps};
 use umbrage_plane::{Facet, TexelRect, View};
-use umbrage_raster::{Bins, Cull, TILE, each_fragment};
+use umbrage_raster::{BIN, Bins, Cull, each_fragment};
 
 /// How a deep map is made (B06-11, EXT-2, EXT-3).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,13 +88,13 @@ where
     let fine = view.with_size(view.size() * axis).expect("as many samples as fit");
     let moments: Vec<Moment> = moments.into_iter().map(|casters| Moment::new(&fine, casters)).collect();
     let size = fine.size();
-    let grid = size.map(|side| side.div_ceil(TILE));
+    let grid = size.map(|side| side.div_ceil(BIN));
     let gather = Gather { fine: &fine, moments: &moments, axis, epsilon: deep.epsilon };
     let tiles: Vec<Vec<Vec<Step>>> = (0..grid.x * grid.y)
         .into_par_iter()
         .map(|index| gather.tile(UVec2::new(index % grid.x, index / grid.x)))
         .collect();
-    let side = TILE / axis;
+    let side = BIN / axis;
     let steps = TexelRect::of_size(view.size()).texels().map(|texel| {
         let (tile, at) = (texel.as_uvec2() / side, texel.as_uvec2() % side);
         let tile = &tiles[(tile.y * grid.x + tile.x) as usize];
@@ -130,8 +130,8 @@ struct Gather<'a> {
 impl Gather<'_> {
     /// The compressed steps of the texels of one tile of samples, row by row; none at all where nothing is seen.
     fn tile(&self, tile: UVec2) -> Vec<Vec<Step>> {
-        let side = TILE / self.axis;
-        let origin = (tile * TILE).as_ivec2();
+        let side = BIN / self.axis;
+        let origin = (tile * BIN).as_ivec2();
         let mut falls: Vec<Vec<(f32, DVec3)>> = Vec::new();
         for moment in self.moments {
             let mut met: Vec<Fragment> = Vec::new();
@@ -154,14 +154,14 @@ impl Gather<'_> {
             });
             falls.resize((side * side) as usize, Vec::new());
             for sample in met.chunk_by(|a, b| a.cell == b.cell) {
-                let cell = UVec2::new(u32::from(sample[0].cell) % TILE, u32::from(sample[0].cell) / TILE);
+                let cell = UVec2::new(u32::from(sample[0].cell) % BIN, u32::from(sample[0].cell) / BIN);
                 let texel = cell / self.axis;
                 let at = self.fine.sampling().position(origin + cell.as_ivec2());
                 self.add(moment, sample, at, &mut falls[(texel.y * side + texel.x) as usize]);
             }
         }
         let samples = f64::from(self.axis * self.axis) * self.moments.len() as f64;
-        falls.into_iter().map(|falls| compress(&steps(falls, samples), self.epsilon)).collect()
+        falls.into_iter().map(|falls| compress_steps(&steps(falls, samples), self.epsilon)).collect()
     }
 
     /// What the light loses at each surface of one sample.

@@ -40,6 +40,8 @@
 //!
 //! The results do not depend on the number of threads, and neither on the order of the triangles.
 
+#![warn(missing_debug_implementations)]
+
 mod caster;
 mod deep;
 mod moments;

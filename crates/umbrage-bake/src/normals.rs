@@ -32,7 +32,7 @@ pub fn bake_by_normals<R: DepthRule>(
 fn side(view: &View, caster: &Caster) -> Option<DVec3> {
     let (corners, normals) = (caster.triangle.corners, caster.normals?);
     let to_eye = view.world_to_eye();
-    let eye = corners.map(|corner| to_eye.transform_point3(corner.as_dvec3()));
+    let eye = corners.map(|corner| to_eye.transform_point3(corner));
     let toward = |at: DVec3| if view.is_perspective() { -at } else { DVec3::Z };
     let normals = normals.map(|normal| to_eye.transform_vector3(normal.as_dvec3()));
     let facing = DVec3::from_array(std::array::from_fn(|i| normals[i].dot(toward(eye[i]))));

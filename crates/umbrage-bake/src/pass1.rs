@@ -3,7 +3,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use umbrage_depth::{DepthRule, Reduction, Stored, Tile, Tiled};
 use umbrage_plane::{Facet, Facing, TexelRect, View, ViewError};
-use umbrage_raster::{Bins, Cull, Stats, TILE, Triangle, each_fragment};
+use umbrage_raster::{BIN, Bins, Cull, Stats, Triangle, each_fragment};
 
 /// A depth map, and what became of the triangles.
 #[derive(Clone, Debug)]
@@ -29,7 +29,7 @@ pub fn bake<R: DepthRule>(view: &View, triangles: impl IntoIterator<Item = Trian
 /// [`bake`] with `axis` × `axis` samples a texel, all of whose fragments count for the texel: what *hits* it, not what lies at one place
 /// (W92-3).
 ///
-/// First depths then are the nearest over the texel. Midpoints need [`Same::Surface`](umbrage_depth::Same::Surface), as one surface has several
+/// First depths then are the nearest over the texel. Midpoints need [`SameSurface::Surface`](umbrage_depth::SameSurface::Surface), as one surface has several
 /// depths there. Radial depths are taken along the ray of the texel's own sample.
 ///
 /// # Errors
@@ -63,13 +63,13 @@ pub(crate) struct Pass<'a, R, F> {
 }
 
 /// Cells of a tile.
-const CELLS: usize = (TILE * TILE) as usize;
+const CELLS: usize = (BIN * BIN) as usize;
 
 impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     /// Draws, reduces and resolves.
     pub fn run(&self, triangles: impl IntoIterator<Item = Triangle>, cull: Cull) -> Baked {
         let bins = Bins::new(self.fine, TexelRect::of_size(self.fine.size()), cull, triangles);
-        let grid = self.view.size().map(|side| side.div_ceil(TILE));
+        let grid = self.view.size().map(|side| side.div_ceil(BIN));
         let (made, fragments): (Vec<Option<Tile>>, Vec<u64>) = (0..grid.x * grid.y)
             .into_par_iter()
             .map(|index| {
@@ -91,12 +91,12 @@ impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
         let nearest = self.view.key(self.view.near()) as f32;
         let mut depths = Box::new([f32::INFINITY; CELLS]);
         for (index, depth) in depths.iter_mut().enumerate() {
-            let texel = (tile * TILE).as_ivec2() + IVec2::new(index as i32 % TILE as i32, index as i32 / TILE as i32);
+            let texel = (tile * BIN).as_ivec2() + IVec2::new(index as i32 % BIN as i32, index as i32 / BIN as i32);
             let at = self.view.sampling().position(texel);
             // Clamped only now: a rule must tell surfaces apart that are all nearer than the near plane.
             *depth = self.rule.resolve(cells[index], &decode, at).max(decode.depth(nearest, at));
         }
-        Tile::new(depths, (self.view.size() - tile * TILE).min(UVec2::splat(TILE)))
+        Tile::new(depths, (self.view.size() - tile * BIN).min(UVec2::splat(BIN)))
     }
 }
 
@@ -104,13 +104,13 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     /// A tile's cells after all fragments, `None` where there were none, and the number of fragments.
     pub fn cells(&self, bins: &Bins, tile: UVec2) -> (Option<Box<[R::Cell; CELLS]>>, u64) {
         let axis = self.fine.size().x / self.view.size().x;
-        let first = (tile * TILE).as_ivec2();
+        let first = (tile * BIN).as_ivec2();
         let mut cells: Option<Box<[R::Cell; CELLS]>> = None;
         let mut fragments = 0;
         for pass in 0..R::PASSES {
             for part in 0..axis * axis {
                 let part = tile * axis + UVec2::new(part % axis, part / axis);
-                let origin = (part * TILE).as_ivec2();
+                let origin = (part * BIN).as_ivec2();
                 bins.tile(part, |facet, coverage| {
                     let cells = cells.get_or_insert_with(|| Box::new([R::EMPTY; CELLS]));
                     each_fragment(self.fine, origin, facet, coverage, |cell, at, key| {
@@ -119,7 +119,7 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
                             cell
                         } else {
                             let texel = (at / f64::from(axis)).as_ivec2() - first;
-                            (texel.y * TILE as i32 + texel.x) as usize
+                            (texel.y * BIN as i32 + texel.x) as usize
                         };
                         self.rule.add(pass, &mut cells[cell], key, front, facet);
                         fragments += u64::from(pass == 0);

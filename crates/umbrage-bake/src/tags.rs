@@ -3,7 +3,7 @@ use glam::UVec2;
 use rayon::prelude::*;
 use umbrage_depth::{Reduction, TagMap};
 use umbrage_plane::{Facet, TexelRect, View};
-use umbrage_raster::{Bins, Cull, TILE, Triangle};
+use umbrage_raster::{BIN, Bins, Cull, Triangle};
 
 /// The nearest key and its object; of several objects at one key the smallest id, so that no order shows (V54).
 struct Nearest;
@@ -29,8 +29,8 @@ pub fn bake_tags(view: &View, triangles: impl IntoIterator<Item = Triangle>) -> 
         .map(|index| pass.cells(&bins, UVec2::new(index % grid.x, index / grid.x)).0)
         .collect();
     let id = |texel: glam::IVec2| {
-        let (tile, at) = (texel.as_uvec2() / TILE, texel.as_uvec2() % TILE);
-        let (key, object) = tiles[(tile.y * grid.x + tile.x) as usize].as_ref()?[(at.y * TILE + at.x) as usize];
+        let (tile, at) = (texel.as_uvec2() / BIN, texel.as_uvec2() % BIN);
+        let (key, object) = tiles[(tile.y * grid.x + tile.x) as usize].as_ref()?[(at.y * BIN + at.x) as usize];
         (key < f32::INFINITY).then_some(object)
     };
     TagMap::new(*view, TexelRect::of_size(view.size()).texels().map(id))

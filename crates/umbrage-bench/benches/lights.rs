@@ -5,7 +5,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::Vec3;
 use std::hint::black_box;
 use umbrage_sample::Key;
-use umbrage_scene::tree::{Colour, Cone, Emission, Falloff, Mix, Product, Sight, Tree, Unshadowed};
+use umbrage_scene::tree::{Colour, Cone, Emission, Falloff, Mix, Passing, Product, Sight, Tree};
 
 fn trees(criterion: &mut Criterion) {
     let (warm, cool) = (Vec3::new(1.3, 0.9, 0.4), Vec3::new(0.1, 0.2, 0.5));
@@ -16,7 +16,7 @@ fn trees(criterion: &mut Criterion) {
         Tree::Falloff(falloff),
         Tree::Shadow { recipe: String::new() },
     ]);
-    let composed = Product(Product(Mix(cone, Colour(cool), Colour(warm)), falloff), Unshadowed);
+    let composed = Product(Product(Mix(cone, Colour(cool), Colour(warm)), falloff), Passing);
     let key = Key::new(1, 0, 0);
     let sights: Vec<Sight> = (0..65_536)
         .map(|i| Sight {

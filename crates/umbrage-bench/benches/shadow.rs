@@ -21,7 +21,7 @@ fn receivers() -> Vec<SurfacePoint> {
             let (x, y, step) = ((i % SIDE) as f32 / SIDE as f32, (i / SIDE) as f32 / SIDE as f32, 1.0 / SIDE as f32);
             let corners = [at(x, y), at(x + step, y), at(x + step, y + step), at(x, y + step)];
             let centre = at(x + 0.5 * step, y + 0.5 * step);
-            SurfacePoint { corners, region: i, object: 1, ..SurfacePoint::at(centre, Vec3::Z) }
+            SurfacePoint { region: i, object: 1, ..SurfacePoint::at(centre, Vec3::Z).with_corners(corners) }
         })
         .collect()
 }

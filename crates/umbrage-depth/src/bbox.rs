@@ -1,4 +1,4 @@
-use crate::{DepthMap, Raw, Stored, Tiled, rows};
+use crate::{DepthMap, Stored, rows};
 use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use umbrage_plane::{DepthRange, TexelRect, View};
@@ -26,7 +26,7 @@ impl Bbox {
     }
 
     /// As [`Bbox::copy_of`], of a map whose surfaces are all known to lie in `within`.
-    fn within(map: &impl DepthMap, within: TexelRect) -> Self {
+    pub(crate) fn within(map: &impl DepthMap, within: TexelRect) -> Self {
         let rect = rows::finite(map, within);
         Self { view: *map.view(), stored: map.stored(), rect, depths: rows::copy(map, rect) }
     }
@@ -68,17 +68,5 @@ impl DepthMap for Bbox {
 
     fn bytes(&self) -> usize {
         size_of_val(self.depths.as_slice())
-    }
-}
-
-impl From<&Raw> for Bbox {
-    fn from(map: &Raw) -> Self {
-        Self::copy_of(map)
-    }
-}
-
-impl From<&Tiled> for Bbox {
-    fn from(map: &Tiled) -> Self {
-        Self::within(map, map.stored())
     }
 }

@@ -21,7 +21,7 @@ pub struct DeepMap {
 
 impl DeepMap {
     /// From the steps of each texel of `view`, row by row, row 0 on top; none where there is no surface. They are kept as they are: see
-    /// [`compress`]. `epsilon` tells how far they may stand from what they were made from, 0 for not at all.
+    /// [`compress_steps`]. `epsilon` tells how far they may stand from what they were made from, 0 for not at all.
     ///
     /// # Errors
     /// When texels are missing or left over, depths of a texel do not ascend, are not finite or reach 1e30, or what passes is outside 0..=1 or grows;
@@ -125,7 +125,7 @@ impl Translucent for DeepMap {
 ///
 /// The first surface keeps its depth and nothing is dark before it, so that searches find it where it was (B06-11). 0 loses nothing but steps at
 /// which nothing changes. `steps` must be as in [`DeepMap::new`].
-pub fn compress(steps: &[Step], epsilon: f32) -> Vec<Step> {
+pub fn compress_steps(steps: &[Step], epsilon: f32) -> Vec<Step> {
     let mut kept: Vec<Step> = Vec::new();
     let mut start = 0;
     while start < steps.len() {

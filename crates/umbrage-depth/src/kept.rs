@@ -1,4 +1,4 @@
-use crate::{Bbox, DeepMap, DepthMap, Raw, Stored, Tiled, Translucent};
+use crate::{Bbox, DeepMap, DepthMap, Raw, Stored, Tiled, Translucent, rows};
 use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use std::str::FromStr;
@@ -108,11 +108,44 @@ from!(Bbox, Bbox);
 from!(Tiled, Tiled);
 from!(DeepMap, Deep);
 
+/// Conversions between storages: all of a map's depths, kept otherwise.
+macro_rules! convert {
+    ($from:ty, $to:ty) => {
+        impl From<&$from> for $to {
+            fn from(map: &$from) -> Self {
+                Self::copy_of(map)
+            }
+        }
+    };
+}
+
+convert!(Bbox, Raw);
+convert!(Tiled, Raw);
+convert!(Raw, Bbox);
+convert!(Raw, Tiled);
+convert!(Bbox, Tiled);
+
+impl From<&Tiled> for Bbox {
+    fn from(map: &Tiled) -> Self {
+        // No texel outside the tiles needs a look.
+        Self::within(map, map.kept())
+    }
+}
+
 impl From<&Self> for Map {
     /// The same map, shared.
     fn from(map: &Self) -> Self {
         map.clone()
     }
+}
+
+/// The nearest surfaces of a deep map: slow as it is, it need not be compiled for every filter.
+#[inline(never)]
+fn nearest<S: Simd>(simd: S, map: &DeepMap, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
+    simd.vectorize(
+        #[inline(always)]
+        || map.look(simd, TexelRect::of_size(map.view().size()), x, y),
+    )
 }
 
 impl DepthMap for Map {
@@ -128,7 +161,13 @@ impl DepthMap for Map {
 
     #[inline(always)]
     fn look<S: Simd>(&self, simd: S, within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
-        each!(self, map => map.look(simd, within, x, y))
+        let (depths, rect) = match self {
+            Self::Raw(map) => (map.depths(), TexelRect::of_size(map.view().size())),
+            Self::Bbox(map) => (map.depths(), map.finite()),
+            Self::Tiled(map) => return map.look(simd, within, x, y),
+            Self::Deep(map) => return nearest(simd, map, x, y),
+        };
+        rows::look(simd, depths, rect, x, y)
     }
 
     #[inline(always)]

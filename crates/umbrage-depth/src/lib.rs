@@ -40,6 +40,8 @@
 //!
 //! This crate draws no triangles and computes no shadow.
 
+#![warn(missing_debug_implementations)]
+
 mod back_face;
 mod bandlimit;
 mod bbox;
@@ -62,12 +64,12 @@ mod translucent;
 pub use back_face::BackFace;
 pub use bandlimit::bandlimit;
 pub use bbox::Bbox;
-pub use deep::{DeepMap, compress};
+pub use deep::{DeepMap, compress_steps};
 pub use first::First;
 pub use hit::Hit;
 pub use kept::{Map, Storage, StorageError};
 pub use map::DepthMap;
-pub use midpoint::{Midpoint, MidpointCell, Same};
+pub use midpoint::{Midpoint, MidpointCell, SameSurface};
 pub use quantise::{quantise, quantum};
 pub use raw::{MapError, Raw};
 pub use rule::{DepthRule, Reduction};

@@ -9,18 +9,19 @@ use umbrage_plane::{Decode, Facet};
 /// or shared edges and sheets would store their own depth and shadow themselves (W92-4, T-2). Whether two coincide is
 /// asked of the nearest alone, in a second pass; merging them as they arrive would depend on their order (V54).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Midpoint {
     /// Where between the two: 0 excluded, ½ is Woo's, 1 is the second surface.
     pub ratio: f32,
     /// Surfaces whose distances differ by no more than this share of the larger are one.
     pub merge: f32,
     /// Which fragments belong to one surface.
-    pub same: Same,
+    pub same: SameSurface,
 }
 
 /// Which fragments of a texel belong to one surface (W92-4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Same {
+pub enum SameSurface {
     /// Those at one depth, whatever their objects.
     #[default]
     Depth,
@@ -31,9 +32,11 @@ pub enum Same {
     Surface,
 }
 
+umbrage_plane::builders!([] Midpoint { with_ratio ratio: f32, with_merge merge: f32, with_same same: SameSurface });
+
 impl Default for Midpoint {
     fn default() -> Self {
-        Self { ratio: 0.5, merge: 1e-6, same: Same::Depth }
+        Self { ratio: 0.5, merge: 1e-6, same: SameSurface::Depth }
     }
 }
 
@@ -92,9 +95,9 @@ impl Midpoint {
         let (first, key) = (f64::from(cell.first), f64::from(key));
         let coincide = key - first <= f64::from(self.merge) * first.abs().max(key.abs());
         match self.same {
-            Same::Depth => coincide,
-            Same::Object => coincide && object.0 == cell.object.0,
-            Same::Surface => object == cell.object,
+            SameSurface::Depth => coincide,
+            SameSurface::Object => coincide && object.0 == cell.object.0,
+            SameSurface::Surface => object == cell.object,
         }
     }
 }

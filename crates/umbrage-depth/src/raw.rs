@@ -1,4 +1,4 @@
-use crate::{Bbox, DepthMap, Stored, Tiled, rows};
+use crate::{DepthMap, Stored, rows};
 use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use umbrage_plane::{TexelRect, View};
@@ -129,17 +129,5 @@ impl DepthMap for Raw {
 
     fn bytes(&self) -> usize {
         size_of_val(self.depths.as_slice())
-    }
-}
-
-impl From<&Bbox> for Raw {
-    fn from(map: &Bbox) -> Self {
-        Self::copy_of(map)
-    }
-}
-
-impl From<&Tiled> for Raw {
-    fn from(map: &Tiled) -> Self {
-        Self::copy_of(map)
     }
 }

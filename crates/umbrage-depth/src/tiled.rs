@@ -1,4 +1,4 @@
-use crate::{Bbox, DepthMap, Raw, Stored, rows};
+use crate::{DepthMap, Stored, rows};
 use fearless_simd::{Simd, f32x16, prelude::*, u32x16};
 use glam::{IVec2, UVec2};
 use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
@@ -120,7 +120,7 @@ impl Tiled {
     }
 
     /// A rectangle around all kept tiles.
-    pub(crate) fn stored(&self) -> TexelRect {
+    pub(crate) fn kept(&self) -> TexelRect {
         let kept = self.tiles.iter().zip(0..).filter(|(tile, _)| tile.is_some());
         let all = kept.fold(TexelRect::EMPTY, |all, (_, index)| {
             let origin = (UVec2::new(index % self.grid.x, index / self.grid.x) * TILE).as_ivec2();
@@ -190,17 +190,5 @@ impl DepthMap for Tiled {
 
     fn bytes(&self) -> usize {
         self.tile_count() * AREA * size_of::<f32>()
-    }
-}
-
-impl From<&Raw> for Tiled {
-    fn from(map: &Raw) -> Self {
-        Self::copy_of(map)
-    }
-}
-
-impl From<&Bbox> for Tiled {
-    fn from(map: &Bbox) -> Self {
-        Self::copy_of(map)
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, IVec2, UVec2, Vec3};
 use proptest::prelude::*;
-use umbrage_depth::{DeepMap, DepthMap, MapError, Step, TagMap, Translucent, compress};
+use umbrage_depth::{DeepMap, DepthMap, MapError, Step, TagMap, Translucent, compress_steps};
 use umbrage_plane::{View, mix32};
 
 /// Random numbers of one texel, by two indices.
@@ -104,7 +104,7 @@ fn a_fall_of_just_the_bound_is_not_rounded_into_it() {
     for texel in 0..200_000 {
         let low = Key(texel).unit(0, 0) * 0.9;
         let steps = grey(&[(1.0, low + epsilon), (2.0, low)]);
-        let found = apart(&steps, &compress(&steps, epsilon));
+        let found = apart(&steps, &compress_steps(&steps, epsilon));
         assert!(found <= f64::from(epsilon), "{low}: {found}");
     }
 }
@@ -134,7 +134,7 @@ fn ext_3_compression_honours_its_bound_on_a_hundred_thousand_texels() {
         let key = Key(texel);
         let epsilon = [0.0, 0.002, 0.01, 0.05][(texel % 4) as usize];
         let full = random_texel(key, texel % 2 == 0 && texel % 8 < 4);
-        let kept = compress(&full, epsilon);
+        let kept = compress_steps(&full, epsilon);
         let found = apart(&full, &kept);
         assert!(found <= f64::from(epsilon), "texel {texel}: {found} apart, {epsilon} allowed");
         assert_eq!(kept.first().map(|step| step.depth), full.first().map(|step| step.depth), "first surface");
@@ -167,7 +167,7 @@ proptest! {
             steps.push((i as f32 + 1.0, light as f32 / 8192.0));
         }
         let epsilon = bound as f32 / 8192.0;
-        let kept = compress(&grey(&steps), epsilon);
+        let kept = compress_steps(&grey(&steps), epsilon);
         let levels: Vec<f32> = steps.iter().map(|step| step.1).collect();
         prop_assert!(kept.len() <= fewest(&levels, f64::from(epsilon)));
         prop_assert!(apart(&grey(&steps), &kept) <= f64::from(epsilon));
@@ -176,7 +176,7 @@ proptest! {
     #[test]
     fn a_bound_of_nothing_changes_nothing(seed in any::<u32>()) {
         let full = random_texel(Key(seed), true);
-        prop_assert_eq!(apart(&full, &compress(&full, 0.0)), 0.0);
+        prop_assert_eq!(apart(&full, &compress_steps(&full, 0.0)), 0.0);
     }
 }
 

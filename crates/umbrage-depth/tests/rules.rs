@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, IVec2, UVec2};
 use proptest::prelude::*;
-use umbrage_depth::{BackFace, DepthRule, First, Hit, Midpoint, Same, Second, Stored};
+use umbrage_depth::{BackFace, DepthRule, First, Hit, Midpoint, SameSurface, Second, Stored};
 use umbrage_plane::{Affine, Facet, Facing, Kind, View};
 
 /// One surface over a texel.
@@ -127,7 +127,7 @@ fn v47_w92_1_w92_2_midpoints() {
     assert_eq!(half(&[20.0, 9.0, 5.0]), 7.0);
     assert_eq!(half(&[5.0, 5.0]), INF);
     assert_eq!(half(&[5.0, 5.0, 9.0]), 7.0);
-    let quarter = Midpoint { ratio: 0.25, ..Midpoint::default() };
+    let quarter = Midpoint::default().with_ratio(0.25);
     assert_eq!(stored(&quarter, &orthographic(), &[front(9.0), front(5.0)]), 6.0);
 }
 
@@ -151,10 +151,10 @@ fn w92_4_surfaces_merge_within_the_tolerance_and_by_object_if_asked() {
     for view in [orthographic(), perspective()] {
         assert_eq!(stored(&same, &view, &[front(5.0), front(near)]), INF);
         assert!(stored(&same, &view, &[front(5.0), front(far)]) < 5.1);
-        assert!(stored(&Midpoint { merge: 0.0, ..same }, &view, &[front(5.0), front(near)]) < 5.1);
+        assert!(stored(&same.with_merge(0.0), &view, &[front(5.0), front(near)]) < 5.1);
     }
     let of = |object: u32, zeta: f64| Fragment { object, ..front(zeta) };
-    let by_object = Midpoint { same: Same::Object, ..same };
+    let by_object = same.with_same(SameSurface::Object);
     for order in orders(&[of(1, 5.0), of(2, 5.0), of(1, 9.0)]) {
         assert_eq!(stored(&same, &orthographic(), &order), 7.0);
         assert_eq!(stored(&by_object, &orthographic(), &order), 5.0);
@@ -202,9 +202,9 @@ macro_rules! every_rule {
         $law("second", &Second $(, $more)*);
         $law("back face", &BackFace $(, $more)*);
         $law("midpoint", &Midpoint::default() $(, $more)*);
-        $law("midpoint by object", &Midpoint { same: Same::Object, ..Midpoint::default() } $(, $more)*);
-        $law("midpoint by surface", &Midpoint { same: Same::Surface, ..Midpoint::default() } $(, $more)*);
-        $law("quarter point, unmerged", &Midpoint { ratio: 0.25, merge: 0.0, same: Same::Depth } $(, $more)*);
+        $law("midpoint by object", &Midpoint::default().with_same(SameSurface::Object) $(, $more)*);
+        $law("midpoint by surface", &Midpoint::default().with_same(SameSurface::Surface) $(, $more)*);
+        $law("quarter point, unmerged", &Midpoint::default().with_ratio(0.25).with_merge(0.0).with_same(SameSurface::Depth) $(, $more)*);
     };
 }
 
@@ -278,7 +278,7 @@ proptest! {
         let once: Vec<_> = zetas.iter().map(|&zeta| front(zeta)).collect();
         let twice: Vec<_> = once.iter().chain(&once).copied().collect();
         for view in [orthographic(), perspective()] {
-            let whole = Midpoint { ratio: 1.0, merge: 0.0, same: Same::Depth };
+            let whole = Midpoint::default().with_ratio(1.0).with_merge(0.0).with_same(SameSurface::Depth);
             prop_assert_eq!(stored(&whole, &view, &once), stored(&Second, &view, &once));
             let mid = Midpoint::default();
             prop_assert_eq!(stored(&mid, &view, &once), stored(&mid, &view, &twice));

@@ -1,7 +1,8 @@
 //! Is there a bias that does? Predicted from a scene's numbers, or found by trying (Wang & Molnar 1994; WM94-18, D-10).
 
-use crate::predict::{Stored, acne_free_bias};
+use crate::predict::{acne_free_bias, slack};
 use std::fmt;
+use umbrage_depth::Stored;
 
 /// The biases between false shadow and shadows that come off their casters, world units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +60,7 @@ pub struct BiasCase {
 impl BiasCase {
     /// The predicted window.
     pub fn window(&self) -> BiasWindow {
-        let slack = self.stored.slack(self.thickness);
+        let slack = slack(self.stored, self.thickness);
         let guard = self.thickness - slack;
         let step = acne_free_bias(self.texel_world * self.slope, 0.0, self.radius);
         let across = self.elevation.cos();
@@ -71,7 +72,7 @@ impl BiasCase {
     /// The widest texel with which a bias works, world units; +∞ where the receiver faces the light squarely (the inverse of
     /// D-10).
     pub fn widest_texel(&self) -> f64 {
-        let guard = self.thickness - self.stored.slack(self.thickness);
+        let guard = self.thickness - slack(self.stored, self.thickness);
         let allowed = guard + self.window().keeps_contact.unwrap_or(0.0);
         let per_texel = acne_free_bias(self.slope, 0.0, self.radius);
         if per_texel > 0.0 { allowed / per_texel } else { f64::INFINITY }

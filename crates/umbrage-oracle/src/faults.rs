@@ -219,12 +219,7 @@ pub fn profile_on_surface(
 
 /// A region moved over its surface, under the name of another.
 fn carried(foot: &SurfacePoint, way: Vec3, region: u32) -> SurfacePoint {
-    SurfacePoint {
-        position: foot.position + way,
-        corners: foot.corners.map(|corner| corner + way),
-        region: foot.region.wrapping_add(region),
-        ..*foot
-    }
+    SurfacePoint { position: foot.position + way.as_dvec3(), region: foot.region.wrapping_add(region), ..*foot }
 }
 
 /// Linear RGB of a signed error in −1..1 (clamped), for heat maps: result minus truth.

@@ -7,10 +7,10 @@ use std::time::Duration;
 use umbrage_plane::View;
 use umbrage_scene::Scene;
 
-/// A triangle of the world.
+/// A triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Face {
-    /// World space, counter-clockwise from outside.
+    /// Relative to [`Geometry::origin`], counter-clockwise from outside.
     pub corners: [Vec3; 3],
     /// Id of the object it belongs to.
     pub object: u32,
@@ -44,9 +44,11 @@ pub struct Hit {
 
 /// A scene's triangles, ready for rays. obvhs builds the tree; rays walk it in f64.
 ///
-/// Positions are the f32 numbers that the rasteriser sees; everything after them is f64. No ray slips between triangles
+/// Positions are the f32 numbers of the scene, relative to its origin; everything after them is f64, and points and directions
+/// that are asked about are of world space. No ray slips between triangles
 /// that share an edge or a vertex (Woop, Benthin & Wald 2013); a ray through the edge itself meets both.
 pub struct Geometry {
+    origin: DVec3,
     faces: Vec<Face>,
     planes: Vec<Plane>,
     bodies: Vec<Body>,
@@ -54,14 +56,14 @@ pub struct Geometry {
     extent: f64,
 }
 
-/// A face in f64, with its unit normal.
+/// A face in f64, relative to the geometry's origin, with its unit normal.
 #[derive(Clone, Copy)]
 struct Plane {
     corners: [DVec3; 3],
     normal: DVec3,
 }
 
-/// A ray whose boxes are cheap to test.
+/// A ray whose boxes are cheap to test. Relative to the geometry's origin.
 #[derive(Clone, Copy)]
 struct Ray {
     origin: DVec3,
@@ -76,10 +78,14 @@ struct Ray {
 impl Geometry {
     /// All objects of a scene, casters or not. Patches are diced as they are for `dice_for`: give the camera's view to
     /// judge the camera's picture, so that receivers lie on the surfaces that are traced.
+    ///
+    /// # Panics
+    /// When the scene's origin is not finite.
     pub fn new(scene: &Scene, dice_for: &View) -> Self {
+        let local = scene.about_origin(dice_for);
         let mut faces = Vec::new();
         for (object, thing) in scene.objects.iter().enumerate() {
-            let mesh = thing.shape.mesh_for(dice_for);
+            let mesh = thing.shape.mesh_for(&local);
             faces.extend(mesh.triangles.iter().map(|triangle| Face {
                 corners: triangle.map(|index| mesh.positions[index as usize]),
                 object: object as u32,
@@ -87,10 +93,10 @@ impl Geometry {
         }
         let bodies = scene.objects.iter();
         let bodies = bodies.map(|thing| Body { casts: thing.casts, solid: thing.solid, passes: thing.passes });
-        Self::from_faces(faces, bodies.collect())
+        Self { origin: scene.origin, ..Self::from_faces(faces, bodies.collect()) }
     }
 
-    /// From triangles and what their objects are. Objects without a body count as sheets that do not cast; triangles
+    /// From triangles of world space and what their objects are. Objects without a body count as sheets that do not cast; triangles
     /// with a coordinate that is not finite, or without area, are never met.
     pub fn from_faces(faces: Vec<Face>, bodies: Vec<Body>) -> Self {
         let faces: Vec<Face> = faces.into_iter().filter(|face| face.corners.iter().all(|at| at.is_finite())).collect();
@@ -110,7 +116,12 @@ impl Geometry {
             .collect();
         let extent = faces.iter().flat_map(|face| face.corners).map(|at| f64::from(at.abs().max_element()));
         let extent = extent.fold(0.0, f64::max);
-        Self { faces, planes, bodies, tree, extent }
+        Self { origin: DVec3::ZERO, faces, planes, bodies, tree, extent }
+    }
+
+    /// The world-space point that the faces are relative to: the scene's.
+    pub fn origin(&self) -> DVec3 {
+        self.origin
     }
 
     /// The triangles, by the index that [`Hit::face`] names.
@@ -128,11 +139,11 @@ impl Geometry {
         self.bodies.iter().all(|body| body.passes == Vec3::ZERO)
     }
 
-    /// How far a point that was rounded to f32 may lie off the surface it came from, world units, with room to spare:
-    /// eight half-ulps of its largest coordinate.
+    /// How far a world-space point that was rounded to f32 about the origin may lie off the surface it came from, world units,
+    /// with room to spare: eight half-ulps of its largest coordinate there.
     pub fn margin(&self, at: DVec3) -> f64 {
         const EIGHT_HALF_ULPS: f64 = 1.0 / 2_097_152.0;
-        (at.abs().max_element() * EIGHT_HALF_ULPS).max(self.extent * (EIGHT_HALF_ULPS / 512.0))
+        ((at - self.origin).abs().max_element() * EIGHT_HALF_ULPS).max(self.extent * (EIGHT_HALF_ULPS / 512.0))
     }
 
     /// True when a surface lies between `from` and `to`, both excluded. Surfaces through `from` do not count: those
@@ -158,7 +169,7 @@ impl Geometry {
     ) -> bool {
         let Some(direction) = direction.try_normalize() else { return false };
         let mut found = false;
-        self.walk(&Ray::new(from, direction), reach, &mut |face, t| {
+        self.walk(&Ray::new(from - self.origin, direction), reach, &mut |face, t| {
             let off_plane = t * self.planes[face as usize].normal.dot(direction).abs();
             found = t < reach && counts(off_plane, &self.faces[face as usize], t);
             if found { None } else { Some(reach) }
@@ -180,7 +191,7 @@ impl Geometry {
         let Some(direction) = direction.try_normalize() else { return Vec3::ONE };
         let mut passes = Vec3::ONE;
         let mut crossed: Vec<(u32, bool, f64)> = Vec::new();
-        self.walk(&Ray::new(from, direction), reach, &mut |index, t| {
+        self.walk(&Ray::new(from - self.origin, direction), reach, &mut |index, t| {
             let face = &self.faces[index as usize];
             if t < reach && counts(face, t) {
                 let outside = self.planes[index as usize].normal.dot(direction) < 0.0;
@@ -203,7 +214,7 @@ impl Geometry {
     pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
         let direction = direction.try_normalize()?;
         let mut best: Option<(f64, u32)> = None;
-        self.walk(&Ray::new(origin, direction), f64::INFINITY, &mut |face, t| {
+        self.walk(&Ray::new(origin - self.origin, direction), f64::INFINITY, &mut |face, t| {
             if best.is_none_or(|(known, index)| t < known || (t == known && face < index)) {
                 best = Some((t, face));
             }
@@ -216,7 +227,7 @@ impl Geometry {
     pub fn hits(&self, origin: DVec3, direction: DVec3) -> Vec<Hit> {
         let Some(direction) = direction.try_normalize() else { return Vec::new() };
         let mut found = Vec::new();
-        self.walk(&Ray::new(origin, direction), f64::INFINITY, &mut |face, t| {
+        self.walk(&Ray::new(origin - self.origin, direction), f64::INFINITY, &mut |face, t| {
             found.push(self.hit(origin, direction, t, face));
             Some(f64::INFINITY)
         });

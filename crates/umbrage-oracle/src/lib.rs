@@ -23,6 +23,7 @@
 
 mod bias;
 mod diagnose;
+mod diagnostic;
 mod faults;
 mod geometry;
 mod mean;
@@ -32,7 +33,8 @@ mod thin;
 mod truth;
 
 pub use bias::{BiasCase, BiasSearch, BiasWindow};
-pub use diagnose::{Diagnostic, Plan, diagnose};
+pub use diagnose::diagnose;
+pub use diagnostic::{Diagnostic, Plan};
 pub use faults::{Contact, Evidence, Fault, Faults, faults, gap_on_surface, heat, penumbra_width, profile_on_surface};
 pub use geometry::{Body, Face, Geometry, Hit};
 pub use mean::Mean;

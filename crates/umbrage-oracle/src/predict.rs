@@ -2,6 +2,7 @@
 //!
 //! Lengths are in one unit of the caller's choice within a call (world units, or texels), angles in radians.
 
+use umbrage_depth::Stored;
 use umbrage_plane::View;
 
 /// Share of a lit plane in false shadow under nearest look-up, bias drawn uniformly from `bias.0..=bias.1` (D-9).
@@ -121,32 +122,19 @@ pub fn severe_perspective(view: &View, bits: u32, farthest_zeta: f64, bias_world
     Some(depth_step(view, bits, farthest_zeta)).filter(|step| *step > 0.5 * bias_world)
 }
 
-/// Which surface of a caster the map keeps, as far as contact gaps care (D-10).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stored {
-    /// The surface nearest to the light (Williams 1978, Reeves 1987).
-    First,
-    /// Halfway between the first two (Woo 1992).
-    Midpoint,
-    /// The second surface (Wang & Molnar 1994).
-    Second,
-}
-
-impl Stored {
-    /// How far behind what is stored a caster of `thickness` along the light ends: as far as a receiver that touches it
-    /// may be moved toward the light and stay dark. The rest of the thickness guards the caster from its own texels.
-    pub fn slack(self, thickness: f64) -> f64 {
-        match self {
-            Self::First => thickness,
-            Self::Midpoint => 0.5 * thickness,
-            Self::Second => 0.0,
-        }
+/// How far behind what is stored a caster of `thickness` along the light ends, in the same unit: as far as a receiver that touches it may be
+/// moved toward the light and stay dark. The rest of the thickness guards the caster from its own texels. 0 for a rule that is not published.
+pub fn slack(stored: Stored, thickness: f64) -> f64 {
+    match stored {
+        Stored::First => thickness,
+        Stored::Midpoint => 0.5 * thickness,
+        _ => 0.0,
     }
 }
 
 /// Lit gap on the floor behind an upright leg of `thickness` along the light, light at `elevation`, ≥ 0 (D-10).
-pub fn contact_gap(bias: f64, thickness: f64, elevation: f64, stored: Stored) -> f64 {
-    (bias * elevation.cos() - stored.slack(thickness)).max(0.0)
+pub fn expected_contact_gap(bias: f64, thickness: f64, elevation: f64, stored: Stored) -> f64 {
+    (bias * elevation.cos() - slack(stored, thickness)).max(0.0)
 }
 
 /// True when no constant bias spares both the floor's acne and the contact of a leg of `thickness`: texels of
@@ -156,7 +144,7 @@ pub fn no_bias_works(texel_world: f64, radius: f64, thickness: f64, elevation: f
 }
 
 /// Width of the true penumbra of a disc light of `diameter`, at axial distances `occluder` < `receiver` (D-16).
-pub fn penumbra_width(diameter: f64, occluder: f64, receiver: f64) -> f64 {
+pub fn expected_penumbra_width(diameter: f64, occluder: f64, receiver: f64) -> f64 {
     diameter * (receiver - occluder) / occluder
 }
 
@@ -321,22 +309,22 @@ mod tests {
     fn d10_contact_and_the_impossible_bias() {
         // SC-D: legs of 8, elevation 25°, texels of 3.92 at 512².
         let (elevation, texel) = (25f64.to_radians(), 3.92);
-        assert!((contact_gap(15.0, 8.0, elevation, Stored::First) - 5.6).abs() < 0.05);
-        assert_eq!(contact_gap(5.0, 8.0, elevation, Stored::First), 0.0);
-        assert_eq!(contact_gap(0.0, 8.0, elevation, Stored::Second), 0.0);
+        assert!((expected_contact_gap(15.0, 8.0, elevation, Stored::First) - 5.6).abs() < 0.05);
+        assert_eq!(expected_contact_gap(5.0, 8.0, elevation, Stored::First), 0.0);
+        assert_eq!(expected_contact_gap(0.0, 8.0, elevation, Stored::Second), 0.0);
         assert!(no_bias_works(texel, 2.0, 8.0, elevation));
         assert!(!no_bias_works(texel / 4.0, 0.5, 8.0, elevation));
     }
 
     #[test]
     fn d16_penumbra() {
-        near(penumbra_width(2.0, 10.0, 15.0), 1.0);
+        near(expected_penumbra_width(2.0, 10.0, 15.0), 1.0);
         near(sky_penumbra_half_width(0.1, 5.0), 0.501_673_36);
     }
 
     #[test]
     fn v65_d16_penumbra_in_the_map() {
-        near(penumbra_width(2.0, 5.0, 10.0), 2.0);
+        near(expected_penumbra_width(2.0, 5.0, 10.0), 2.0);
         near(penumbra_tangent(2.0, 5.0, 10.0), 0.1);
         near(soft_radius_share(5.0, 10.0), 0.5);
         // A largest radius of l / 2·occluder makes B06's radius the true one.

@@ -1,21 +1,23 @@
-use crate::predict::{Stored, acne_free_bias};
+use crate::predict::{acne_free_bias, slack};
 use crate::{Body, Diagnostic, Face, Geometry, Plan};
 use glam::{DVec2, DVec3, Vec3};
 use std::collections::BTreeMap;
+use umbrage_depth::Stored;
 use umbrage_plane::View;
-use umbrage_scene::{Light, Mesh, Object};
+use umbrage_scene::{Light, Mesh, Object, Scene};
 
 /// Asks each triangle in the light, no steeper than the plan says, how far behind its middle the object ends; tells of
 /// the one whose depth step is worst for its thickness (WM94-17).
 ///
 /// The first surface has no guard but the bias, and sheets have no thickness: neither is asked. Nor are smooth pieces that
 /// are narrower than a texel: what happens there cannot be told from the silhouette beside it.
-pub(crate) fn too_thin(object: &Object, light: &Light, plan: &Plan) -> Option<Diagnostic> {
+pub(crate) fn too_thin(scene: &Scene, object: &Object, light: &Light, plan: &Plan) -> Option<Diagnostic> {
     let guarded = plan.slope > 0.0 && plan.stored != Stored::First;
     if !(guarded && object.casts && object.solid) {
         return None;
     }
-    let view = &light.view;
+    // All of it about the scene's origin.
+    let view = &scene.about_origin(&light.view);
     let mesh = object.shape.mesh_for(view);
     let faces = (0..mesh.triangles.len()).map(|triangle| Face { corners: mesh.corners(triangle), object: 0 });
     let body = Geometry::from_faces(faces.collect(), vec![Body::default()]);
@@ -37,7 +39,7 @@ pub(crate) fn too_thin(object: &Object, light: &Light, plan: &Plan) -> Option<Di
         let steps = view.texel_world(zeta) * slope;
         let step = acne_free_bias(steps.x, steps.y, plan.filter_half);
         let thickness = back.t * axial;
-        let excess = step / (thickness - plan.stored.slack(thickness));
+        let excess = step / (thickness - slack(plan.stored, thickness));
         if excess > worst.map_or(1.0, |worst| worst.0) {
             worst = Some((excess, thickness, step));
         }

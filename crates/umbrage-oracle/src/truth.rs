@@ -34,7 +34,7 @@ impl Lamp {
     /// The answer that needs no ray.
     fn verdict(&self, at: &SurfacePoint) -> Option<f32> {
         let view = self.view.as_ref()?;
-        let point = SurfacePoint { corners: [at.position; 4], ..*at };
+        let point = SurfacePoint { corner_offsets: [Vec3::ZERO; 4], ..*at };
         let place = match view.receiver(&point) {
             Ok(receiver) => view.locate(receiver.footprint.centre),
             Err(place) => place,
@@ -48,7 +48,7 @@ impl Lamp {
 
     /// What passes of the light from `light` (homogeneous as [`Lamp::at`]) on its way to `at`.
     fn passes(&self, geometry: &Geometry, at: &SurfacePoint, light: DVec4) -> Vec3 {
-        let (surface, normal) = (at.position.as_dvec3(), at.normal.as_dvec3());
+        let (surface, normal) = (at.position, at.normal.as_dvec3());
         let way = light.truncate() - surface * light.w;
         let facing = normal.dot(way);
         let body = geometry.body(at.object);
@@ -195,10 +195,10 @@ impl<'a> AreaRegion<'a> {
 
 impl AreaRegion<'_> {
     fn passed(&self, point: &SurfacePoint, key: Key) -> Passed {
-        let [a, b, c, d] = point.corners.map(Vec3::as_dvec3);
+        let [a, b, c, d] = point.corners();
         Passed::over(self.across, key.region(point.region), |s| {
-            let position = a.lerp(b, s.x).lerp(d.lerp(c, s.x), s.y).as_vec3();
-            self.ray.passes(&SurfacePoint { position, corners: [position; 4], ..*point })
+            let position = a.lerp(b, s.x).lerp(d.lerp(c, s.x), s.y);
+            self.ray.passes(&SurfacePoint { position, corner_offsets: [Vec3::ZERO; 4], ..*point })
         })
     }
 }
@@ -256,7 +256,7 @@ impl<'a> AreaLight<'a> {
         let axis = match (&lamp.view, lamp.at.w == 0.0) {
             (Some(view), false) => view.world_to_eye().row(2).truncate(),
             (_, true) => lamp.at.truncate(),
-            (None, false) => lamp.at.truncate() - point.position.as_dvec3(),
+            (None, false) => lamp.at.truncate() - point.position,
         };
         let (right, up) = axis.normalize_or(DVec3::Z).any_orthonormal_pair();
         Passed::over(self.across, key.region(point.region), |s| {

@@ -25,6 +25,8 @@
 //!
 //! This crate knows no map, no sample and no shadow.
 
+#![warn(missing_debug_implementations)]
+
 mod affine;
 mod around;
 mod builders;
@@ -39,6 +41,8 @@ mod view;
 
 #[doc(hidden)]
 pub use fearless_simd;
+/// The vectors and matrices of every public signature.
+pub use glam;
 
 pub use affine::{Affine, Decode, DepthPlane, DepthRange, Facet, Facing, Kind};
 pub use around::{Sectors, cube_face, cube_views, sector_views};

@@ -2,14 +2,18 @@ use crate::{Affine, DepthPlane, Footprint, Kind, Projection, Verdict, View, Wher
 use glam::{DVec3, Vec2, Vec3};
 
 /// A region of surface to be shaded, in world space.
+///
+/// Its place is f64, so that it is as exact far from the world's origin as near it; its extent is small, and kept as f32
+/// offsets from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
     /// Its centre.
-    pub position: Vec3,
+    pub position: DVec3,
     /// Geometric unit normal, on the side that is looked at.
     pub normal: Vec3,
-    /// The region's four corners on the tangent plane, in order around it; all equal to `position` for a point.
-    pub corners: [Vec3; 4],
+    /// From `position` to the region's four corners on the tangent plane, in order around it, world units; all zero for a
+    /// point.
+    pub corner_offsets: [Vec3; 4],
     /// Names the region within its picture: random numbers are keyed by it.
     pub region: u32,
     /// Id of the object.
@@ -17,9 +21,21 @@ pub struct SurfacePoint {
 }
 
 impl SurfacePoint {
-    /// A point without extent, region 0, object 0.
-    pub const fn at(position: Vec3, normal: Vec3) -> Self {
-        Self { position, normal, corners: [position; 4], region: 0, object: 0 }
+    /// A point without extent, region 0, object 0. `position` may be a [`Vec3`] or a [`DVec3`].
+    pub fn at(position: impl Into<DVec3>, normal: Vec3) -> Self {
+        Self { position: position.into(), normal, corner_offsets: [Vec3::ZERO; 4], region: 0, object: 0 }
+    }
+
+    /// The same point with the extent of four corners in world space, in order around it. They may be [`Vec3`]s or
+    /// [`DVec3`]s; their offsets are rounded to f32 once.
+    #[must_use]
+    pub fn with_corners(self, corners: [impl Into<DVec3>; 4]) -> Self {
+        Self { corner_offsets: corners.map(|corner| (corner.into() - self.position).as_vec3()), ..self }
+    }
+
+    /// The region's four corners in world space, in order around it; all equal to the position for a point.
+    pub fn corners(&self) -> [DVec3; 4] {
+        self.corner_offsets.map(|offset| self.position + offset.as_dvec3())
     }
 }
 
@@ -120,7 +136,7 @@ impl View {
     /// The place, when that alone settles the answer by this view's [`Rules`](crate::Rules): behind the light, or nearer or farther than the range under rules that do not compare there.
     #[inline(always)]
     pub fn receiver(&self, at: &SurfacePoint) -> Result<Receiver, Where> {
-        let eye = self.world_to_eye.transform_point3(at.position.as_dvec3());
+        let eye = self.world_to_eye.transform_point3(at.position);
         let zeta = -eye.z;
         if self.is_perspective() && (zeta <= 0.0 || zeta.is_nan()) {
             return Err(Where::Behind);
@@ -155,11 +171,12 @@ impl View {
     #[inline(always)]
     fn footprint(&self, at: &SurfacePoint, eye: DVec3) -> Footprint {
         let centre = self.eye_to_texel(eye).as_vec2();
-        if at.corners[1] == at.corners[0] && at.corners[2] == at.corners[0] {
+        let [first, second, third, _] = at.corner_offsets;
+        if second == first && third == first {
             return Footprint::point(centre);
         }
         let nearest = -eye.z * (1.0 / 16.0);
-        let corners = at.corners.map(|corner: Vec3| self.world_to_eye.transform_point3(corner.as_dvec3()));
+        let corners = at.corner_offsets.map(|offset| eye + self.world_to_eye.transform_vector3(offset.as_dvec3()));
         let clipped = corners.map(|corner| {
             let zeta = -corner.z;
             if self.is_perspective() && (zeta < nearest || zeta.is_nan()) {
@@ -187,16 +204,14 @@ impl View {
     ///
     /// The axes are half the differences of opposite edges' midpoints.
     pub fn derivative_footprint(&self, at: &SurfacePoint) -> Option<Footprint> {
-        let to_texel = |point: Vec3| self.eye_to_texel(self.world_to_eye.transform_point3(point.as_dvec3()));
-        let eye = self.world_to_eye.transform_point3(at.position.as_dvec3());
+        let eye = self.world_to_eye.transform_point3(at.position);
         if self.is_perspective() && (-eye.z <= 0.0 || eye.z.is_nan()) {
             return None;
         }
-        let [a, b, c, d] = at.corners;
+        let [a, b, c, d] = at.corner_offsets.map(|offset| self.world_to_eye.transform_vector3(offset.as_dvec3()));
         let step = 1.0 / 64.0;
         let (across, down) = ((b + c - a - d) * (0.5 * step), (d + c - a - b) * (0.5 * step));
-        let central =
-            |axis: Vec3| (to_texel(at.position + axis) - to_texel(at.position - axis)) / (2.0 * f64::from(step));
+        let central = |axis: DVec3| (self.eye_to_texel(eye + axis) - self.eye_to_texel(eye - axis)) / (2.0 * step);
         let half = (central(across).abs() + central(down).abs()) * 0.5;
         Some(Footprint::boxed(self.eye_to_texel(eye).as_vec2(), half.as_vec2()))
     }

@@ -187,18 +187,55 @@ impl View {
     /// # Errors
     /// [`ViewError::Size`].
     pub fn with_size(self, size: UVec2) -> Result<Self, ViewError> {
-        Ok(Self {
-            kind: self.kind,
-            sampling: self.sampling,
-            rules: self.rules,
-            cone: self.cone,
-            ..Self::new(self.world_to_eye, self.projection, self.near, self.far, size)?
-        })
+        Self::new(self.world_to_eye, self.projection, self.near, self.far, size).map(|view| view.alike(&self))
+    }
+
+    /// The same view, moved by `by` world units without turning. What it shows of a world that moves along is the same to
+    /// the roundings of f64: at 10⁶ units from the origin they are about 10⁻¹⁰.
+    ///
+    /// # Errors
+    /// [`ViewError::Placement`] when it ends at a place that is not finite.
+    pub fn moved(self, by: DVec3) -> Result<Self, ViewError> {
+        if by == DVec3::ZERO {
+            return Ok(self);
+        }
+        let mut world_to_eye = self.world_to_eye;
+        world_to_eye.w_axis -= world_to_eye.transform_vector3(by).extend(0.0);
+        Self::new(world_to_eye, self.projection, self.near, self.far, self.size).map(|view| view.alike(&self))
+    }
+
+    /// The same view of a world that is `factor` times as large about its origin: place, near and far plane and the width
+    /// of an orthographic view are multiplied. For powers of two nothing is rounded; depths in world units are then
+    /// `factor` times the old ones, bit for bit.
+    ///
+    /// # Errors
+    /// [`ViewError`], unless `factor` is positive and what it makes of the view is usable.
+    pub fn scaled(self, factor: f64) -> Result<Self, ViewError> {
+        if !(factor.is_finite() && factor > 0.0) {
+            return Err(ViewError::Placement("a scale must be positive and finite"));
+        }
+        let mut world_to_eye = self.world_to_eye;
+        world_to_eye.w_axis = (world_to_eye.w_axis.truncate() * factor).extend(1.0);
+        let projection = match self.projection {
+            Projection::Perspective { k } => Projection::Perspective { k },
+            Projection::Orthographic { half } => Projection::Orthographic { half: half * factor },
+        };
+        let (near, far) = (self.near * factor, self.far * factor);
+        Self::new(world_to_eye, projection, near, far, self.size).map(|view| view.alike(&self))
+    }
+
+    /// With everything of another view that [`View::new`] does not ask for.
+    fn alike(self, other: &Self) -> Self {
+        Self { kind: other.kind, sampling: other.sampling, rules: other.rules, cone: other.cone, ..self }
     }
 
     /// World to eye space; rigid.
     pub fn world_to_eye(&self) -> DMat4 {
         self.world_to_eye
+    }
+    /// Eye to world space; rigid.
+    pub fn eye_to_world(&self) -> DMat4 {
+        self.eye_to_world
     }
     /// The projection.
     pub fn projection(&self) -> Projection {
@@ -256,8 +293,13 @@ impl View {
 
     /// World space to (x_n, y_n, z_s): spec C-2's matrix, whatever the kind.
     pub fn world_to_screen(&self) -> DMat4 {
+        self.eye_to_screen() * self.world_to_eye
+    }
+
+    /// Eye space to (x_n, y_n, z_s): the projection alone of [`View::world_to_screen`].
+    pub fn eye_to_screen(&self) -> DMat4 {
         let (n, f) = (self.near, self.far);
-        let projection = match self.projection {
+        match self.projection {
             Projection::Perspective { k } => DMat4::from_cols(
                 DVec4::new(k.x, 0.0, 0.0, 0.0),
                 DVec4::new(0.0, k.y, 0.0, 0.0),
@@ -270,8 +312,7 @@ impl View {
                 DVec4::new(0.0, 0.0, -1.0 / (f - n), 0.0),
                 DVec4::new(0.0, 0.0, -n / (f - n), 1.0),
             ),
-        };
-        projection * self.world_to_eye
+        }
     }
 
     /// Screen x_n, y_n (−1..1, y up) to texel space.

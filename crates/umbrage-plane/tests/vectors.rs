@@ -123,10 +123,10 @@ fn pixel_region(camera: &View, x: u32, y: u32) -> SurfacePoint {
     let key = camera.affine(eye, camera.world_to_eye().transform_vector3(N)).unwrap();
     let on_plane = |dx: f64, dy: f64| {
         let at = DVec2::new(f64::from(x) + dx, f64::from(y) + dy);
-        camera.world_at(at, key.at(at)).as_vec3()
+        camera.world_at(at, key.at(at))
     };
     let corners = [on_plane(0.0, 0.0), on_plane(1.0, 0.0), on_plane(1.0, 1.0), on_plane(0.0, 1.0)];
-    SurfacePoint { position: on_plane(0.5, 0.5), corners, ..surface() }
+    SurfacePoint { position: on_plane(0.5, 0.5), ..surface() }.with_corners(corners)
 }
 
 #[test]
@@ -213,16 +213,14 @@ fn c_12_texels_need_not_be_square() {
 fn e_r15_corners_behind_the_light_are_cut_off() {
     let view = lamp(64);
     let corners = [(-2.0, 10.5), (2.0, 10.5), (2.0, 5.0), (-2.0, 5.0)].map(|(x, y)| Vec3::new(x, y, 0.0));
-    let region = SurfacePoint { position: Vec3::new(0.0, 7.0, 0.0), corners, ..surface() };
+    let region = SurfacePoint { position: DVec3::new(0.0, 7.0, 0.0), ..surface() }.with_corners(corners);
     // Two corners stand at ζ = 5 and x = ±2: at x_n = ±.4, texels 32 ± 12.8. The others, behind the light, are cut at a
     // sixteenth of the centre's ζ = 3 on their way from it: far outside, so that the quarter of the map is what is left.
     let cut = view.receiver(&region).unwrap().footprint;
     assert_eq!((cut.centre, cut.half), (Vec2::splat(32.0), Vec2::new(16.0, 0.0)));
     // Nearer the axis nothing need be capped: x = ±.01 at ζ = .1875, 32 · .01 · (t = 2.8125 / 3.5) / .1875 texels.
-    let thin = SurfacePoint {
-        corners: [(-0.01, 10.5), (0.01, 10.5), (0.01, 5.0), (-0.01, 5.0)].map(|(x, y)| Vec3::new(x, y, 0.0)),
-        ..region
-    };
+    let corners = [(-0.01, 10.5), (0.01, 10.5), (0.01, 5.0), (-0.01, 5.0)].map(|(x, y)| Vec3::new(x, y, 0.0));
+    let thin = region.with_corners(corners);
     close(f64::from(view.receiver(&thin).unwrap().footprint.half.x), 32.0 * 0.01 * (2.8125 / 3.5) / 0.1875, 1e-5);
 }
 
@@ -230,7 +228,7 @@ fn e_r15_corners_behind_the_light_are_cut_off() {
 fn a_capped_footprint_still_lies_around_its_point() {
     let view = lamp(64);
     let corners = [(-0.5, 9.0), (40.0, 9.0), (40.0, 9.0), (-0.5, 9.0)].map(|(x, y)| Vec3::new(x, y, 0.0));
-    let region = SurfacePoint { position: Vec3::new(0.0, 9.0, 0.0), corners, ..surface() };
+    let region = SurfacePoint { position: DVec3::new(0.0, 9.0, 0.0), ..surface() }.with_corners(corners);
     let footprint = view.receiver(&region).unwrap().footprint;
     assert_eq!(footprint.half.x, 16.0);
     assert!((footprint.centre.x - 32.0).abs() <= 16.0, "{footprint:?}");

@@ -2,11 +2,11 @@
 
 use crate::coverage::{Coverage, Samples};
 use crate::setup::{Piece, SUBTEXELS, Setup, sampled};
-use crate::{Cull, Stats, TILE, Triangle};
+use crate::{BIN, Cull, Stats, Triangle};
 use glam::{IVec2, UVec2};
 use umbrage_plane::{Facet, Sampling, TexelRect, View};
 
-const SIDE: i32 = TILE as i32;
+const SIDE: i32 = BIN as i32;
 
 /// Triangles sorted into the tiles of a view.
 ///
@@ -43,7 +43,7 @@ impl Bins {
         let mut bins = Self {
             sampling,
             window,
-            tiles: view.size().map(|side| side.div_ceil(TILE)),
+            tiles: view.size().map(|side| side.div_ceil(BIN)),
             pieces,
             corners,
             starts: Vec::new(),
@@ -54,7 +54,7 @@ impl Bins {
         bins
     }
 
-    /// Number of tiles across and down: the view's size over [`TILE`], rounded up.
+    /// Number of tiles across and down: the view's size over [`BIN`], rounded up.
     pub fn tiles(&self) -> UVec2 {
         self.tiles
     }

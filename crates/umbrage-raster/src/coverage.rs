@@ -4,13 +4,13 @@
 //! when a_y ≤ y < b_y and its crossing lies strictly to the right. For a triangle this is the top-left rule. Each edge's part is a function
 //! of its two ends alone, so two polygons that share an edge never both claim a sample on it, and never both leave it.
 
-use crate::TILE;
+use crate::BIN;
 use crate::setup::{SUBTEXELS, sampled};
 use glam::{IVec2, UVec2};
 use std::ops::Range;
 use umbrage_plane::{Sampling, TexelRect};
 
-const SIDE: i32 = TILE as i32;
+const SIDE: i32 = BIN as i32;
 
 /// The texels of one tile that a facet covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,7 +67,7 @@ pub(crate) struct Samples {
 impl Samples {
     /// The samples of a tile that lie in `window`; `None` when there are none.
     pub fn of(tile: UVec2, window: TexelRect, sampling: Sampling) -> Option<Self> {
-        let origin = (tile * TILE).as_ivec2();
+        let origin = (tile * BIN).as_ivec2();
         let inside = TexelRect::new(origin, origin + SIDE).intersect(window);
         if inside.is_empty() {
             return None;

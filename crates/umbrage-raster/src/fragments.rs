@@ -1,8 +1,8 @@
-use crate::{Coverage, TILE};
+use crate::{BIN, Coverage};
 use glam::{DVec2, IVec2};
 use umbrage_plane::{Facet, View};
 
-/// Calls `each` with every covered texel of a tile, row by row: its index in the tile (row × [`TILE`] + column), the place of its sample in
+/// Calls `each` with every covered texel of a tile, row by row: its index in the tile (row × [`BIN`] + column), the place of its sample in
 /// texels of the map, and the facet's key there, rounded once.
 ///
 /// `origin` is the tile's upper left texel; `facet` and `coverage` are what [`Bins::tile`](crate::Bins::tile) gives of it, and `view` is the one
@@ -22,7 +22,7 @@ pub fn each_fragment(
             bits &= bits - 1;
             let texel = origin + IVec2::new(column as i32, i32::from(row));
             let at = view.sampling().position(texel);
-            each(usize::from(row) * TILE as usize + column as usize, at, facet.plane.at(at) as f32);
+            each(usize::from(row) * BIN as usize + column as usize, at, facet.plane.at(at) as f32);
         }
     }
 }

@@ -1,17 +1,17 @@
 //! Triangles to exact coverage, tile by tile.
 //!
 //! [`Bins`] takes the triangles of a scene as one view sees them, cuts off what lies behind the view, snaps the corners to
-//! 1/256 texel and sorts the triangles into tiles of [`TILE`]² texels. [`Bins::tile`] then tells, for each triangle that
+//! 1/256 texel and sorts the triangles into tiles of [`BIN`]² texels. [`Bins::tile`] then tells, for each triangle that
 //! reaches a tile, exactly which texels' samples it covers, as often as it is asked and from any thread.
 //!
 //! ```
-//! use glam::{DVec3, UVec2, Vec3};
+//! use glam::{DVec3, UVec2};
 //! use umbrage_plane::{TexelRect, View};
 //! use umbrage_raster::{Bins, Cull, Triangle};
 //!
 //! // Looking along −z at the square −16..16: one world unit is one texel.
 //! let view = View::orthographic(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 16.0, 1.0, 9.0, UVec2::splat(32)).unwrap();
-//! let corners = [(0.0, 0.0), (3.0, 0.0), (0.0, 3.0)].map(|(x, y)| Vec3::new(x, y, -5.0));
+//! let corners = [(0.0, 0.0), (3.0, 0.0), (0.0, 3.0)].map(|(x, y)| DVec3::new(x, y, -5.0));
 //! let triangle = Triangle { corners, object: 7, sheet: false };
 //! let bins = Bins::new(&view, TexelRect::of_size(view.size()), Cull::None, [triangle]);
 //! bins.tile(UVec2::ZERO, |facet, coverage| {
@@ -36,6 +36,8 @@
 //! projected at the light itself: what is nearer than 1/1024 of the near distance is cut off, and counted
 //! ([`Stats::too_near`]).
 
+#![warn(missing_debug_implementations)]
+
 mod bins;
 mod clip;
 mod coverage;
@@ -46,20 +48,28 @@ pub use bins::Bins;
 pub use coverage::Coverage;
 pub use fragments::each_fragment;
 
-use glam::Vec3;
+use glam::DVec3;
 
 /// Side of a tile, in texels.
-pub const TILE: u32 = 32;
+pub const BIN: u32 = 32;
 
 /// A triangle in world space, counter-clockwise as seen from its outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
-    /// World-space corners. NaN, infinite or ≥ 1e30 in size: the triangle is counted and skipped.
-    pub corners: [Vec3; 3],
+    /// World-space corners. NaN, infinite or ≥ 1e30 in size: the triangle is counted and skipped. Triangles that share a
+    /// corner must give it by the same bits, so that nothing gapes between them.
+    pub corners: [DVec3; 3],
     /// Id of the object it belongs to.
     pub object: u32,
     /// True for a piece of an open, two-sided surface.
     pub sheet: bool,
+}
+
+impl Triangle {
+    /// From corners that are [`Vec3`](glam::Vec3)s or [`DVec3`]s.
+    pub fn new(corners: [impl Into<DVec3>; 3], object: u32, sheet: bool) -> Self {
+        Self { corners: corners.map(Into::into), object, sheet }
+    }
 }
 
 /// Which triangles are left out by the side a view sees of them. Sheets are never culled.

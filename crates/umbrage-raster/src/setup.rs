@@ -2,7 +2,7 @@
 
 use crate::clip::{Clipper, GUARD_TEXELS, NEAR_LIMIT};
 use crate::{Cull, Stats, Triangle};
-use glam::{DMat4, DVec3, IVec2, Vec3};
+use glam::{DMat4, DVec3, IVec2};
 use umbrage_plane::{Affine, Facet, Facing, Sampling, TexelRect, View};
 
 /// One snap step is 1/256 texel.
@@ -97,11 +97,12 @@ impl<'a> Setup<'a> {
     }
 
     fn piece(&mut self, triangle: &Triangle) -> Result<(), Skip> {
-        if triangle.corners.iter().any(|corner| !corner.abs().cmplt(Vec3::splat(1e30)).all()) {
+        let world = triangle.corners;
+        if world.iter().any(|corner| !corner.abs().cmplt(DVec3::splat(1e30)).all()) {
             return Err(Skip::NotFinite);
         }
-        let world = triangle.corners.map(Vec3::as_dvec3);
-        // Differences of the world's f32 numbers are exact in f64 unless one is 2²⁹ times the other; those of eye space are not.
+        // Differences of f32 numbers are exact in f64 unless one is 2²⁹ times the other, and those of numbers about an f64 origin
+        // have one rounding; those of eye space have several.
         let edges = [world[1] - world[0], world[2] - world[0]];
         if edges[0].cross(edges[1]) == DVec3::ZERO {
             return Err(Skip::ZeroArea);

@@ -3,13 +3,13 @@
 //! What a recipe chooses stays data down to the filter ([`AnyPattern`], [`AnyDepth`](umbrage_shadow::AnyDepth)), so that each filter is
 //! compiled once.
 
-use crate::Preset;
+use crate::PresetName;
 use crate::values::{PatternName, Values};
 use umbrage_depth::{Map, Storage};
 use umbrage_sample::{
     AnyPattern, Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Tent, Uniform,
 };
-use umbrage_shadow::{Conditional, Filter, IntegerFirst, Ordinary, Pcf, Shadow, ShadowMap, Soft, Williams};
+use umbrage_shadow::{Conditional, Filter, FilteredDepth, IntegerFirst, Pcf, Shadow, ShadowMap, Soft, Williams};
 
 /// Puts a filter over a map in the storage that is asked for. A filter expects no surface in particular; a [`Recipe`](crate::Recipe) does.
 pub fn bind<F: Filter + 'static>(filter: F, map: impl Into<Map>, storage: Storage) -> Box<dyn Shadow> {
@@ -22,14 +22,14 @@ fn over<F: Filter + 'static>(filter: F, map: Map) -> Box<dyn Shadow> {
 
 impl Values {
     /// The filter of a preset with these values.
-    pub fn bind(&self, preset: Preset, map: Map) -> Box<dyn Shadow> {
+    pub fn bind(&self, preset: PresetName, map: Map) -> Box<dyn Shadow> {
         match preset {
-            Preset::Williams78 => {
+            PresetName::Williams78 => {
                 let filter = Williams::default().with_bias(self.biased.low).with_lookup(self.lookup);
                 over(filter.with_dither(self.dither), map)
             }
-            Preset::Reeves87 | Preset::Reeves87Recommended | Preset::Woo92 => self.closer_over(map),
-            Preset::WangMolnar94 => {
+            PresetName::Reeves87 | PresetName::Reeves87Recommended | PresetName::Woo92 => self.closer_over(map),
+            PresetName::WangMolnar94 => {
                 let filter = Conditional::default()
                     .with_pattern(self.pattern())
                     .with_res_factor(self.res_factor)
@@ -40,7 +40,7 @@ impl Values {
                     .with_dark_backs(self.dark_backs);
                 over(filter, map)
             }
-            Preset::Burley | Preset::Fernando => {
+            PresetName::Burley | PresetName::Fernando => {
                 let filter = Soft::default()
                     .with_depth(self.compared())
                     .with_softness(self.softness())
@@ -52,8 +52,8 @@ impl Values {
                     .with_rescue(self.rescue);
                 over(filter, map)
             }
-            Preset::Ordinary => {
-                let filter = Ordinary::default().with_bias(self.biased.low).with_res_factor(self.res_factor);
+            PresetName::Ordinary => {
+                let filter = FilteredDepth::default().with_bias(self.biased.low).with_res_factor(self.res_factor);
                 over(filter, map)
             }
         }

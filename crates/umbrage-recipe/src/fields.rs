@@ -2,32 +2,43 @@
 
 use crate::kind::Value;
 use crate::values::{DepthName, PatternName, Rule};
-use crate::{Field, Kind, Preset};
-use umbrage_depth::Same;
+use crate::{Field, Kind, PresetName};
+use umbrage_depth::SameSurface;
 use umbrage_plane::Bias;
 use umbrage_sample::Density;
 use umbrage_shadow::williams::{DitherLaw, Guard, Lookup};
-use umbrage_shadow::{Falloff, Radius, Spread, VirtualWhen};
+use umbrage_shadow::{OccluderFalloff, Radius, Spread, VirtualWhen};
 
-const ALL: &[Preset] = &Preset::ALL;
-const CLOSER: &[Preset] = &[Preset::Reeves87, Preset::Reeves87Recommended, Preset::Woo92];
-const SOFT: &[Preset] = &[Preset::Burley, Preset::Fernando];
-const COMPARED: &[Preset] =
-    &[Preset::Reeves87, Preset::Reeves87Recommended, Preset::Woo92, Preset::Burley, Preset::Fernando];
-const PLANES: &[Preset] = &[
-    Preset::Reeves87,
-    Preset::Reeves87Recommended,
-    Preset::Woo92,
-    Preset::WangMolnar94,
-    Preset::Burley,
-    Preset::Fernando,
+const ALL: &[PresetName] = &PresetName::ALL;
+const CLOSER: &[PresetName] = &[PresetName::Reeves87, PresetName::Reeves87Recommended, PresetName::Woo92];
+const SOFT: &[PresetName] = &[PresetName::Burley, PresetName::Fernando];
+const COMPARED: &[PresetName] = &[
+    PresetName::Reeves87,
+    PresetName::Reeves87Recommended,
+    PresetName::Woo92,
+    PresetName::Burley,
+    PresetName::Fernando,
 ];
-const REGIONS: &[Preset] = &[Preset::Reeves87, Preset::Reeves87Recommended, Preset::Woo92, Preset::WangMolnar94];
-const FACTORS: &[Preset] =
-    &[Preset::Reeves87, Preset::Reeves87Recommended, Preset::Woo92, Preset::WangMolnar94, Preset::Ordinary];
-const CONDITIONAL: &[Preset] = &[Preset::WangMolnar94];
-const WILLIAMS: &[Preset] = &[Preset::Williams78];
-const SINGLE: &[Preset] = &[Preset::Williams78, Preset::WangMolnar94, Preset::Ordinary];
+const PLANES: &[PresetName] = &[
+    PresetName::Reeves87,
+    PresetName::Reeves87Recommended,
+    PresetName::Woo92,
+    PresetName::WangMolnar94,
+    PresetName::Burley,
+    PresetName::Fernando,
+];
+const REGIONS: &[PresetName] =
+    &[PresetName::Reeves87, PresetName::Reeves87Recommended, PresetName::Woo92, PresetName::WangMolnar94];
+const FACTORS: &[PresetName] = &[
+    PresetName::Reeves87,
+    PresetName::Reeves87Recommended,
+    PresetName::Woo92,
+    PresetName::WangMolnar94,
+    PresetName::Ordinary,
+];
+const CONDITIONAL: &[PresetName] = &[PresetName::WangMolnar94];
+const WILLIAMS: &[PresetName] = &[PresetName::Williams78];
+const SINGLE: &[PresetName] = &[PresetName::Williams78, PresetName::WangMolnar94, PresetName::Ordinary];
 
 /// A field that is one value of the recipe.
 macro_rules! plain {
@@ -130,7 +141,7 @@ pub const FIELDS: &[Field] = &[
     words!(
         "same",
         ALL,
-        [("depth", Same::Depth), ("object", Same::Object), ("surface", Same::Surface)],
+        [("depth", SameSurface::Depth), ("object", SameSurface::Object), ("surface", SameSurface::Surface)],
         |values| values.midpoint.same,
         "midpoints: which fragments are one surface; `surface` with several `sub-samples`",
         "Woo 1992"
@@ -514,12 +525,12 @@ fn nearby(text: &str) -> Option<(f32, f32)> {
     }
 }
 
-fn falloff(text: &str) -> Option<(Falloff, Density)> {
+fn falloff(text: &str) -> Option<(OccluderFalloff, Density)> {
     match text {
-        "linear" => Some((Falloff::Linear { rim: 0.1 }, Density::Centred)),
-        "smooth" => Some((Falloff::Smooth { rim: 0.1 }, Density::Centred)),
-        "square" => Some((Falloff::Power { rim: 0.1, exponent: 2.0 }, Density::Centred)),
-        "flat" => Some((Falloff::Flat, Density::Uniform)),
+        "linear" => Some((OccluderFalloff::Linear { rim: 0.1 }, Density::Centred)),
+        "smooth" => Some((OccluderFalloff::Smooth { rim: 0.1 }, Density::Centred)),
+        "square" => Some((OccluderFalloff::Power { rim: 0.1, exponent: 2.0 }, Density::Centred)),
+        "flat" => Some((OccluderFalloff::Flat, Density::Uniform)),
         _ => None,
     }
 }

@@ -1,7 +1,7 @@
 use std::fmt;
 use std::str::FromStr;
 use umbrage_plane::Bias;
-use umbrage_shadow::Extent;
+use umbrage_shadow::MapRadius;
 
 /// What the value of a [`Field`](crate::Field) may be. `Display` writes it as errors and help do: "expected ..".
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -169,11 +169,11 @@ impl Value for (Bias, Bias) {
     }
 }
 
-impl Value for Extent {
+impl Value for MapRadius {
     fn read(text: &str, _kind: Kind) -> Option<Self> {
-        type Unit = fn(f32) -> Extent;
+        type Unit = fn(f32) -> MapRadius;
         let units: [(char, Unit); 3] =
-            [('w', Self::World), ('t', Self::Texels), ('%', |percent| Self::Share(percent / 100.0))];
+            [('w', Self::World), ('t', Self::Texels), ('%', |percent| Self::Fraction(percent / 100.0))];
         let named = units.into_iter().find_map(|(letter, unit)| Some((text.strip_suffix(letter)?, unit)));
         let (digits, unit) = named.unwrap_or((text, Self::Texels));
         number(digits).map(unit)
@@ -183,7 +183,7 @@ impl Value for Extent {
         match self {
             Self::Texels(radius) => format!("{radius}t"),
             Self::World(radius) => format!("{radius}w"),
-            Self::Share(share) => format!("{}%", percent(*share)),
+            Self::Fraction(share) => format!("{}%", percent(*share)),
         }
     }
 }

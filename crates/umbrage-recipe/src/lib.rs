@@ -4,13 +4,13 @@
 //! triangles, and binds its filter over a map. Everything that can be written stands in one table of [`Field`]s.
 //!
 //! ```
-//! use umbrage_recipe::{Field, Preset, Recipe};
+//! use umbrage_recipe::{Field, PresetName, Recipe};
 //!
 //! let recipe: Recipe = "woo92,samples=32".parse()?;
-//! assert_eq!(recipe.preset(), Preset::Woo92);
-//! let samples = Field::of(Preset::Woo92).find(|field| field.name == "samples").unwrap();
+//! assert_eq!(recipe.preset(), PresetName::Woo92);
+//! let samples = Field::of(PresetName::Woo92).find(|field| field.name == "samples").unwrap();
 //! assert_eq!(samples.kind.to_string(), "a whole number from 1 to 65536");
-//! assert_eq!(samples.default(Preset::Woo92).as_deref(), Some("16"));
+//! assert_eq!(samples.default(PresetName::Woo92).as_deref(), Some("16"));
 //! # Ok::<(), umbrage_recipe::RecipeError>(())
 //! ```
 //!
@@ -32,6 +32,6 @@ mod values;
 pub use bind::bind;
 pub use error::RecipeError;
 pub use kind::Kind;
-pub use preset::Preset;
+pub use preset::PresetName;
 pub use recipe::Recipe;
 pub use table::{Field, help, markdown};

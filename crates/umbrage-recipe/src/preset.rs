@@ -3,7 +3,7 @@ use umbrage_depth::Stored;
 /// The name that a recipe begins with: a paper's algorithm, or a control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Preset {
+pub enum PresetName {
     /// Point by point (Williams 1978).
     Williams78,
     /// Percentage closer, biases of a range (Reeves, Salesin & Cook 1987), as the listing sets its parameters.
@@ -22,7 +22,7 @@ pub enum Preset {
     Ordinary,
 }
 
-impl Preset {
+impl PresetName {
     /// All of them.
     pub const ALL: [Self; 8] = [
         Self::Williams78,

@@ -1,5 +1,5 @@
 use crate::values::Values;
-use crate::{Preset, RecipeError, kind};
+use crate::{PresetName, RecipeError, kind};
 use umbrage_bake::Caster;
 use umbrage_depth::{DepthMap, Map, Storage, Stored};
 use umbrage_plane::View;
@@ -35,14 +35,14 @@ use umbrage_shadow::Shadow;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recipe {
-    pub(crate) preset: Preset,
+    pub(crate) preset: PresetName,
     pub(crate) values: Values,
     /// Whether `stored` was written, even if it is the preset's own.
     pub(crate) names_stored: bool,
 }
 
-impl From<Preset> for Recipe {
-    fn from(preset: Preset) -> Self {
+impl From<PresetName> for Recipe {
+    fn from(preset: PresetName) -> Self {
         Self { preset, values: Values::of(preset), names_stored: false }
     }
 }
@@ -50,7 +50,7 @@ impl From<Preset> for Recipe {
 impl Recipe {
     /// The preset that it began with.
     #[must_use]
-    pub fn preset(&self) -> Preset {
+    pub fn preset(&self) -> PresetName {
         self.preset
     }
 

@@ -1,6 +1,6 @@
 use crate::fields::FIELDS;
 use crate::values::Values;
-use crate::{Kind, Preset, RecipeError, kind};
+use crate::{Kind, PresetName, RecipeError, kind};
 use std::fmt::Write;
 
 /// One field of a recipe: a row of the table from which parsing, errors, writing, help and documentation come.
@@ -10,7 +10,7 @@ pub struct Field {
     /// Its name. Fields of different presets may have one name.
     pub name: &'static str,
     /// The presets that know it.
-    pub of: &'static [Preset],
+    pub of: &'static [PresetName],
     /// What its value may be.
     pub kind: Kind,
     /// What it does, a sentence without its full stop.
@@ -31,18 +31,18 @@ impl Field {
     }
 
     /// The fields that a preset knows.
-    pub fn of(preset: Preset) -> impl Iterator<Item = &'static Self> {
+    pub fn of(preset: PresetName) -> impl Iterator<Item = &'static Self> {
         FIELDS.iter().filter(move |field| field.of.contains(&preset))
     }
 
     /// The value that a preset has unless told otherwise; `None` where it is without one.
     #[must_use]
-    pub fn default(&self, preset: Preset) -> Option<String> {
+    pub fn default(&self, preset: PresetName) -> Option<String> {
         (self.get)(&Values::of(preset))
     }
 
     /// The row of a preset's field.
-    pub(crate) fn named(preset: Preset, name: &str) -> Result<&'static Self, RecipeError> {
+    pub(crate) fn named(preset: PresetName, name: &str) -> Result<&'static Self, RecipeError> {
         let unknown = || {
             let names: Vec<_> = Self::of(preset).map(|field| field.name).collect();
             RecipeError::value("field", name, kind::either(&names))
@@ -57,7 +57,7 @@ impl Field {
 
     /// The defaults in few words: of all presets that know it, or each of its own.
     fn defaults(&self) -> String {
-        let of = |preset: &Preset| match self.default(*preset) {
+        let of = |preset: &PresetName| match self.default(*preset) {
             Some(value) if value == "inf" => "∞".into(),
             Some(value) => format!("`{value}`"),
             None => "none".into(),
@@ -71,7 +71,7 @@ impl Field {
     }
 
     fn presets(&self) -> String {
-        if self.of.len() == Preset::ALL.len() {
+        if self.of.len() == PresetName::ALL.len() {
             return "all".into();
         }
         self.of.iter().map(|preset| preset.name()).collect::<Vec<_>>().join(", ")
@@ -97,7 +97,7 @@ pub fn markdown() -> String {
 
 /// What may be written behind a preset's name: a line per field, for a terminal.
 #[must_use]
-pub fn help(preset: Preset) -> String {
+pub fn help(preset: PresetName) -> String {
     let mut lines = String::new();
     for field in Field::of(preset) {
         let default = field.default(preset).map_or_else(String::new, |value| format!(" [{value}]"));

@@ -1,12 +1,12 @@
 //! What is read, what is refused, and that what is written reads as the same.
 
 use crate::values::{DepthName, PatternName, Rule, Values};
-use crate::{Field, Kind, Preset, Recipe, help, markdown};
+use crate::{Field, Kind, PresetName, Recipe, help, markdown};
 use proptest::prelude::*;
 use umbrage_plane::Bias;
 use umbrage_sample::Jittered;
 use umbrage_shadow::williams::{Dither, DitherLaw, Guard, Lookup};
-use umbrage_shadow::{AnyDepth, Biased, Cone, Extent, Opacity, Radius, Softness, Spread};
+use umbrage_shadow::{AnyDepth, BiasCone, Biased, MapRadius, Opacity, Radius, Softness, Spread};
 
 fn read(text: &str) -> Values {
     text.parse::<Recipe>().unwrap().values
@@ -79,7 +79,7 @@ fn presets_choose_what_is_stored_and_how_it_is_asked() {
     let mixed = read("burley,stored=midpoint,ratio=0.25,depth=cone,slope=1");
     assert_eq!((mixed.rule, mixed.midpoint.ratio), (Rule::Midpoint, 0.25));
     assert_eq!((mixed.depth, mixed.slope), (DepthName::Cone, 1.0));
-    assert_eq!(read("woo92,depth=cone,pattern=disc").compared(), AnyDepth::Cone(Cone::default()));
+    assert_eq!(read("woo92,depth=cone,pattern=disc").compared(), AnyDepth::Cone(BiasCone::default()));
 }
 
 #[test]
@@ -97,12 +97,12 @@ fn wm94_6_neighbourhoods_by_name() {
 fn b06_every_field_is_read_and_what_contradicts_is_refused() {
     let all = "burley,min=1w,max=2%,search=16,blur=64,rotate=off,half-offset=on,rescue=on,falloff=smooth,shape=2,opacity=0.9..0.2,opacity-shape=0.5,fade=30,bias=0.1,radius=nominal";
     let found = read(all);
-    let between = Softness::Between { min: Extent::World(1.0), max: Extent::Share(0.02) };
+    let between = Softness::Between { min: MapRadius::World(1.0), max: MapRadius::Fraction(0.02) };
     assert_eq!((found.softness(), found.shape, found.rescue), (between, 2.0, true));
     assert_eq!((found.search.num_samples, found.blur.num_samples, found.blur.rotate), (16, 64, false));
     assert!(found.search.half_offset && found.blur.half_offset && !found.search.rotate);
     assert_eq!(found.opacity, Opacity::default().with_near(0.9).with_far(0.2).with_fade(30.0).with_gamma(0.5));
-    assert_eq!(found.compared(), AnyDepth::Cone(Cone::default().with_base(0.1).with_radius(Radius::Nominal)));
+    assert_eq!(found.compared(), AnyDepth::Cone(BiasCone::default().with_base(0.1).with_radius(Radius::Nominal)));
     let light = read("burley,light=2,nearest=5,depth=plane");
     assert_eq!(light.softness(), Softness::Light { radius: 2.0, nearest: 5.0 });
     assert_eq!(read("burley,depth=plane,nearest=5,light=2"), light, "in any order");
@@ -123,7 +123,7 @@ fn b06_every_field_is_read_and_what_contradicts_is_refused() {
 
 #[test]
 fn a_preset_is_written_as_its_name_and_knows_each_field_once() {
-    for preset in Preset::ALL {
+    for preset in PresetName::ALL {
         assert_eq!(Recipe::from(preset).to_string(), preset.name());
         assert_eq!(preset.name().parse(), Ok(Recipe::from(preset)));
         assert!(preset.expects().contains(&Recipe::from(preset).stored()), "{preset:?}");
@@ -194,13 +194,13 @@ fn value(kind: Kind) -> BoxedStrategy<String> {
 
 /// A preset with up to eight of its fields.
 fn recipes() -> impl Strategy<Value = String> {
-    let with_fields = |preset: Preset| {
+    let with_fields = |preset: PresetName| {
         let fields: Vec<&'static Field> = Field::of(preset).collect();
         let field = proptest::sample::select(fields)
             .prop_flat_map(|field| value(field.kind).prop_map(|value| format!(",{}={value}", field.name)));
         proptest::collection::vec(field, 0..8).prop_map(move |fields| preset.name().to_string() + &fields.concat())
     };
-    proptest::sample::select(&Preset::ALL[..]).prop_flat_map(with_fields)
+    proptest::sample::select(&PresetName::ALL[..]).prop_flat_map(with_fields)
 }
 
 proptest! {

@@ -2,7 +2,7 @@
 
 use crate::table::Field;
 use crate::values::Values;
-use crate::{Preset, Recipe, RecipeError, kind};
+use crate::{PresetName, Recipe, RecipeError, kind};
 use std::fmt;
 use std::str::FromStr;
 use toml::{Table, Value};
@@ -13,8 +13,8 @@ impl Recipe {
         name: &str,
         fields: impl IntoIterator<Item = Result<(&'a str, String), RecipeError>>,
     ) -> Result<Self, RecipeError> {
-        let presets = || kind::either(&Preset::ALL.map(Preset::name));
-        let preset = Preset::named(name).ok_or_else(|| RecipeError::value("recipe", name, presets()))?;
+        let presets = || kind::either(&PresetName::ALL.map(PresetName::name));
+        let preset = PresetName::named(name).ok_or_else(|| RecipeError::value("recipe", name, presets()))?;
         let mut values = Values::of(preset);
         let mut given = Vec::new();
         for field in fields {

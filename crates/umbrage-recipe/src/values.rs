@@ -1,12 +1,12 @@
-use crate::{Preset, RecipeError};
+use crate::{PresetName, RecipeError};
 use umbrage_bake::Deep;
 use umbrage_depth::{Midpoint, Stored};
 use umbrage_plane::Bias;
 use umbrage_sample::{Disc, Jittered};
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
 use umbrage_shadow::{
-    AnyDepth, Biased, Conditional, Cone, Extent, Falloff, OnPlane, Opacity, Pcf, Radius, Soft, Softness, Spread,
-    VirtualWhen, Williams, presets,
+    AnyDepth, BiasCone, Biased, Conditional, MapRadius, OccluderFalloff, OnPlane, Opacity, Pcf, Radius, Soft, Softness,
+    Spread, VirtualWhen, Williams, presets,
 };
 
 /// Which surface of a texel is stored, and how it is found.
@@ -77,14 +77,14 @@ pub struct Values {
     pub when: VirtualWhen,
     pub min_cos: f32,
     pub dark_backs: bool,
-    pub min: Extent,
-    pub max: Extent,
+    pub min: MapRadius,
+    pub max: MapRadius,
     /// Radius of a disc light, which stands for `min` and `max`.
     pub light: Option<f32>,
     pub nearest: Option<f32>,
     pub search: Disc,
     pub blur: Disc,
-    pub falloff: Falloff,
+    pub falloff: OccluderFalloff,
     pub shape: f32,
     pub opacity: Opacity,
     pub rescue: bool,
@@ -94,43 +94,43 @@ pub struct Values {
 
 impl Values {
     /// As a preset has them.
-    pub fn of(preset: Preset) -> Self {
+    pub fn of(preset: PresetName) -> Self {
         let parts = Self::common();
         match preset {
-            Preset::Williams78 => {
-                let Williams { bias, lookup, dither, .. } = presets::williams78();
+            PresetName::Williams78 => {
+                let Williams { bias, lookup, dither, .. } = presets::williams78().filter;
                 Self { biased: Biased::constant(bias), lookup, dither, ..parts }
             }
-            Preset::Reeves87 => parts.closer(presets::reeves87()),
-            Preset::Reeves87Recommended => parts.closer(presets::reeves87_recommended()),
-            Preset::Woo92 => Self { rule: Rule::Midpoint, ..parts.closer(presets::woo92()) },
-            Preset::WangMolnar94 => {
+            PresetName::Reeves87 => parts.closer(presets::reeves87().filter),
+            PresetName::Reeves87Recommended => parts.closer(presets::reeves87_recommended().filter),
+            PresetName::Woo92 => Self { rule: Rule::Midpoint, ..parts.closer(presets::woo92().filter) },
+            PresetName::WangMolnar94 => {
                 let Conditional { res_factor, min_size, plane, min_cos, when, dark_backs, .. } =
-                    presets::wang_molnar94();
+                    presets::wang_molnar94().filter;
                 let OnPlane { bias, slack, reach, .. } = plane;
                 let (rule, pattern, biased) = (Rule::BackFace, PatternName::Every, Biased::constant(bias));
                 let parts = Self { rule, pattern, biased, slack, reach, ..parts };
                 Self { res_factor, min_size, min_cos, when, dark_backs, ..parts }
             }
-            Preset::Burley => {
-                let soft = presets::burley();
-                let Cone { base, slope, radius, .. } = soft.depth;
+            PresetName::Burley => {
+                let soft = presets::burley().filter;
+                let BiasCone { base, slope, radius, .. } = soft.depth;
                 let parts = Self { depth: DepthName::Cone, slope, radius, ..parts.soft(soft) };
                 Self { biased: Biased::constant(Bias::World(base)), ..parts }
             }
-            Preset::Fernando => {
+            PresetName::Fernando => {
                 // One texel: what a constant bias is set to where nothing is known of the scene.
-                let fernando = presets::fernando(Bias::Texels(1.0));
+                let fernando = presets::fernando(Bias::Texels(1.0)).filter;
                 let biased = fernando.depth;
                 Self { depth: DepthName::Constant, biased, ..parts.soft(fernando) }
             }
-            Preset::Ordinary => Self { biased: Biased::constant(Bias::ZERO), res_factor: 1.0, ..parts },
+            PresetName::Ordinary => Self { biased: Biased::constant(Bias::ZERO), res_factor: 1.0, ..parts },
         }
     }
 
     /// What presets have that do not say otherwise.
     fn common() -> Self {
-        let (pcf, cone, plane) = (Pcf::default(), Cone::default(), OnPlane::default());
+        let (pcf, cone, plane) = (Pcf::default(), BiasCone::default(), OnPlane::default());
         let (conditional, williams) = (Conditional::default(), Williams::default());
         let soft = Soft::default();
         Self {
@@ -153,8 +153,8 @@ impl Values {
             when: conditional.when,
             min_cos: conditional.min_cos,
             dark_backs: conditional.dark_backs,
-            min: Extent::Texels(0.0),
-            max: Extent::Texels(0.0),
+            min: MapRadius::Texels(0.0),
+            max: MapRadius::Texels(0.0),
             light: None,
             nearest: None,
             search: soft.search,
@@ -201,17 +201,17 @@ impl Values {
             DepthName::Plane => self.plane().into(),
             DepthName::Cone => {
                 let base = if let Bias::World(base) = self.biased.low { base } else { 0.0 };
-                Cone::default().with_base(base).with_slope(self.slope).with_radius(self.radius).into()
+                BiasCone::default().with_base(base).with_slope(self.slope).with_radius(self.radius).into()
             }
         }
     }
 
     /// What only all fields together can show; `given` are the names of those that were written.
-    pub fn check(&self, preset: Preset, given: &[&str]) -> Result<(), RecipeError> {
+    pub fn check(&self, preset: PresetName, given: &[&str]) -> Result<(), RecipeError> {
         match preset {
-            Preset::Reeves87 | Preset::Reeves87Recommended | Preset::Woo92 => self.check_closer()?,
-            Preset::Burley | Preset::Fernando => self.check_soft(given)?,
-            Preset::Williams78 | Preset::WangMolnar94 | Preset::Ordinary => return Ok(()),
+            PresetName::Reeves87 | PresetName::Reeves87Recommended | PresetName::Woo92 => self.check_closer()?,
+            PresetName::Burley | PresetName::Fernando => self.check_soft(given)?,
+            PresetName::Williams78 | PresetName::WangMolnar94 | PresetName::Ordinary => return Ok(()),
         }
         self.check_depth()
     }
@@ -238,9 +238,9 @@ impl Values {
             return Err(RecipeError::value("nearest", &nearest.to_string(), "light too"));
         }
         let larger = match (self.min, self.max) {
-            (Extent::Texels(min), Extent::Texels(max))
-            | (Extent::Share(min), Extent::Share(max))
-            | (Extent::World(min), Extent::World(max)) => min > max,
+            (MapRadius::Texels(min), MapRadius::Texels(max))
+            | (MapRadius::Fraction(min), MapRadius::Fraction(max))
+            | (MapRadius::World(min), MapRadius::World(max)) => min > max,
             _ => false,
         };
         if larger && self.light.is_none() {

@@ -5,7 +5,7 @@ use umbrage_bake::Caster;
 use umbrage_depth::{DepthMap, Map, Raw, Storage, Stored};
 use umbrage_plane::{SurfacePoint, View};
 use umbrage_raster::Triangle;
-use umbrage_recipe::{Preset, Recipe};
+use umbrage_recipe::{PresetName, Recipe};
 use umbrage_sample::Key;
 use umbrage_shadow::Shadow;
 
@@ -19,7 +19,7 @@ fn boards() -> Vec<Triangle> {
         let [a, b, c, d] =
             [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, y)| Vec3::new(x, y, height));
         let faces = if up { [[a, b, c], [a, c, d]] } else { [[a, c, b], [a, d, c]] };
-        faces.map(|corners| Triangle { corners, object, sheet: false })
+        faces.map(|corners| Triangle::new(corners, object, false))
     };
     let levels =
         [level(5.0, 3.0, 0, true), level(4.0, 3.0, 0, false), level(0.0, 8.0, 1, true), level(-1.0, 8.0, 1, false)];
@@ -36,7 +36,7 @@ fn at(shadow: &dyn Shadow, x: f32, height: f32) -> f32 {
 
 #[test]
 fn every_preset_bakes_the_map_it_expects_and_shadows_by_it() {
-    for preset in Preset::ALL {
+    for preset in PresetName::ALL {
         let recipe = Recipe::from(preset);
         let map = recipe.bake(&lamp(), boards());
         assert!(recipe.expects().contains(&map.stored()), "{preset:?}");

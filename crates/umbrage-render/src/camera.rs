@@ -1,7 +1,7 @@
 use crate::Soup;
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
 use umbrage_plane::{Facet, Facing, SurfacePoint, View};
-use umbrage_raster::{Bins, TILE, each_fragment};
+use umbrage_raster::{BIN, Bins, each_fragment};
 
 /// A piece of one surface within one pixel: what is shaded once (R87-8).
 pub(crate) struct Region {
@@ -43,9 +43,9 @@ pub(crate) struct Gather<'a> {
 impl Gather<'_> {
     /// The regions of a tile in pixel order, the number of fragments met, and how many of them were nearer than all before.
     pub fn tile(&self, tile: UVec2) -> (Vec<Region>, u64, u64) {
-        let origin = (tile * TILE).as_ivec2();
+        let origin = (tile * BIN).as_ivec2();
         let mut facets: Vec<Facet> = Vec::new();
-        let mut samples = vec![NONE; (TILE * TILE) as usize];
+        let mut samples = vec![NONE; (BIN * BIN) as usize];
         // What is nearer than the camera's near plane is not seen.
         let nearest = self.view.key(self.view.near()) as f32;
         let (mut fragments, mut passing) = (0, 0);
@@ -66,7 +66,7 @@ impl Gather<'_> {
         });
         let mut regions = Vec::new();
         if !facets.is_empty() {
-            let across = TILE / self.axis;
+            let across = BIN / self.axis;
             for pixel in 0..across * across {
                 let corner = UVec2::new(pixel % across, pixel / across) * self.axis;
                 self.pixel(origin, corner, pixel, &samples, &facets, &mut regions);
@@ -87,7 +87,7 @@ impl Gather<'_> {
         let mut groups: Vec<(Surface, Vec<(DVec2, u32)>)> = Vec::new();
         for i in 0..self.axis * self.axis {
             let at = corner + UVec2::new(i % self.axis, i / self.axis);
-            let sample = samples[(at.y * TILE + at.x) as usize];
+            let sample = samples[(at.y * BIN + at.x) as usize];
             let Some(facet) = facets.get(sample.facet as usize) else { continue };
             let position = self.view.sampling().position(origin + at.as_ivec2());
             let surface = Surface::of(self.soup, facet);
@@ -130,16 +130,16 @@ impl Gather<'_> {
         let half = f64::from(self.axis) * 0.5;
         let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| {
             let corner = centre + DVec2::new(x, y) * half;
-            self.view.world_at(corner, facet.plane.at(corner).clamp(key - reach, key + reach)).as_vec3()
+            self.view.world_at(corner, facet.plane.at(corner).clamp(key - reach, key + reach))
         });
         let position = self.view.world_at(centre, key);
         let (triangle, normals) = self.soup.corners(facet.triangle);
         let side = if front { 1.0 } else { -1.0 };
-        let edge = [triangle[1] - triangle[0], triangle[2] - triangle[0]].map(DVec3::from);
-        let normal = edge[0].cross(edge[1]).normalize_or(DVec3::Z) * side;
-        let position = position.as_vec3();
+        let [a, b, c] = triangle;
+        let normal = (b - a).cross(c - a).normalize_or(DVec3::Z) * side;
+        let point = SurfacePoint { object: facet.object, ..SurfacePoint::at(position, normal.as_vec3()) };
         Region {
-            point: SurfacePoint { position, normal: normal.as_vec3(), corners, region: 0, object: facet.object },
+            point: point.with_corners(corners),
             shading_normal: interpolate(position, triangle, normals) * side as f32,
             share: 0.0,
             pixel: 0,
@@ -163,7 +163,7 @@ impl Surface {
 }
 
 /// The shading normal at a point of a triangle's plane; barycentric weights are clamped to the triangle.
-fn interpolate(at: Vec3, [a, b, c]: [Vec3; 3], [na, nb, nc]: [Vec3; 3]) -> Vec3 {
+fn interpolate(at: DVec3, [a, b, c]: [DVec3; 3], [na, nb, nc]: [Vec3; 3]) -> Vec3 {
     let (ab, ac, ap) = (b - a, c - a, at - a);
     let (d00, d01, d11) = (ab.dot(ab), ab.dot(ac), ac.dot(ac));
     let (d20, d21) = (ap.dot(ab), ap.dot(ac));
@@ -173,5 +173,5 @@ fn interpolate(at: Vec3, [a, b, c]: [Vec3; 3], [na, nb, nc]: [Vec3; 3]) -> Vec3 
     }
     let v = ((d11 * d20 - d01 * d21) / area).clamp(0.0, 1.0);
     let w = ((d00 * d21 - d01 * d20) / area).clamp(0.0, 1.0 - v);
-    (na * (1.0 - v - w) + nb * v + nc * w).normalize_or(na)
+    (na.as_dvec3() * (1.0 - v - w) + nb.as_dvec3() * v + nc.as_dvec3() * w).as_vec3().normalize_or(na)
 }

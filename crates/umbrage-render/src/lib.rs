@@ -16,7 +16,7 @@
 //! scene.camera = scene.camera.with_size(glam::UVec2::splat(48))?;
 //! let light = scene.lights[0].view.with_size(glam::UVec2::splat(64))?;
 //! let baked = bake(&light, Soup::casters(&scene, &light).triangles(), &First, Cull::None);
-//! let shadow = bind(presets::reeves87(), &baked.map, Storage::Tiled);
+//! let shadow = bind(presets::reeves87().filter, &baked.map, Storage::Tiled);
 //! let image = picture(&scene, &[&*shadow], &Frame::default());
 //! assert!(image.shadow[0].iter().any(|&share| share > 0.9));
 //! # Ok::<(), umbrage_plane::ViewError>(())

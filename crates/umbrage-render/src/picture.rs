@@ -1,10 +1,10 @@
 use crate::Soup;
 use crate::camera::{Gather, Region};
 use crate::shade::shade;
-use glam::{UVec2, Vec3};
+use glam::{DVec3, UVec2, Vec3};
 use rayon::prelude::*;
 use umbrage_plane::{Kind, Sampling, SurfacePoint, TexelRect, View};
-use umbrage_raster::{Bins, Cull, TILE};
+use umbrage_raster::{BIN, Bins, Cull};
 use umbrage_sample::Key;
 use umbrage_scene::Scene;
 use umbrage_shadow::Shadow;
@@ -77,7 +77,7 @@ pub struct Picture {
     /// Share of the pixel's samples that meet that object.
     pub share: Vec<f32>,
     /// Position of that region, world space; NaN where nothing is seen.
-    pub position: Vec<Vec3>,
+    pub position: Vec<DVec3>,
     /// Geometric normal of that region; zero where nothing is seen.
     pub normal: Vec<Vec3>,
     /// Distance along the camera's axis of that region; +∞ where nothing is seen.
@@ -108,12 +108,12 @@ pub fn picture(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame) -> Picture
         .into_par_iter()
         .map(|index| {
             let tile = UVec2::new(index % tiles.x, index / tiles.x);
-            (tile * (TILE / axis), finish_tile(scene, shadows, frame, &gather, tile))
+            (tile * (BIN / axis), finish_tile(scene, shadows, frame, &gather, tile))
         })
         .collect();
     let mut picture = Picture::empty(scene, size);
     for (origin, tile) in done {
-        picture.place(origin, TILE / axis, &tile);
+        picture.place(origin, BIN / axis, &tile);
     }
     picture
 }
@@ -202,10 +202,10 @@ impl Pixel {
                 arrives[light] = answer.passes[index];
                 self.shadow[light] += answer.fractions[index] * region.share;
             }
-            let toward = scene.lights[light].view.toward_eye(region.point.position.as_dvec3());
+            let toward = scene.lights[light].view.toward_eye(region.point.position);
             self.facing[light] += region.point.normal.dot(toward.as_vec3()) * region.share;
         }
-        let toward_eye = scene.camera.toward_eye(region.point.position.as_dvec3()).as_vec3();
+        let toward_eye = scene.camera.toward_eye(region.point.position).as_vec3();
         self.colour += shade(scene, region, toward_eye, &arrives) * region.share;
         self.covered += region.share;
         let object = region.point.object;
@@ -237,7 +237,7 @@ impl Picture {
             facing: vec![vec![0.0; pixels]; lights],
             object: vec![NOTHING; pixels],
             share: vec![0.0; pixels],
-            position: vec![Vec3::NAN; pixels],
+            position: vec![DVec3::NAN; pixels],
             normal: vec![Vec3::ZERO; pixels],
             depth: vec![f32::INFINITY; pixels],
             fragments: 0,

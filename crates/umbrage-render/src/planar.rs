@@ -1,5 +1,5 @@
 use crate::Soup;
-use glam::{DVec2, DVec3, DVec4, UVec2, Vec3};
+use glam::{DVec2, DVec3, DVec4, UVec2};
 use std::sync::Arc;
 use umbrage_bake::bake;
 use umbrage_depth::{DepthMap, First, Tiled};
@@ -41,8 +41,12 @@ impl Planar {
         let up = normal.any_orthonormal_vector();
         let (eye, half) = (ground.centre + normal, ground.half_side);
         let looking_down = View::orthographic(eye, ground.centre, up, half, 0.5, 1.5, UVec2::splat(texels))?;
-        let plane = normal.extend(-normal.dot(ground.centre));
-        let flatten = Flatten { plane, light: light.light() };
+        let light_at = light.light();
+        let flatten = Flatten {
+            centre: ground.centre,
+            plane: normal.extend(0.0),
+            light: (light_at.truncate() - ground.centre * light_at.w).extend(light_at.w),
+        };
         let soup = Soup::casters(scene, light);
         let flat = soup.triangles().filter(|triangle| triangle.object != receiver).flat_map(|t| flatten.triangle(&t));
         let mask = bake(&looking_down, flat.collect::<Vec<_>>(), &First, Cull::None).map;
@@ -50,7 +54,7 @@ impl Planar {
     }
 
     fn is_dark(&self, at: &SurfacePoint) -> bool {
-        let world = at.position.as_dvec3();
+        let world = at.position;
         let off = (world - self.ground.centre).dot(self.ground.normal).abs();
         let faces = at.normal.as_dvec3().dot(self.ground.normal) > 0.5;
         if !faces || off > 1e-4 * self.ground.half_side {
@@ -70,8 +74,10 @@ impl Shadow for Planar {
     }
 }
 
-/// Throws triangles onto a plane.
+/// Throws triangles onto a plane. It counts from the ground's middle: products of large coordinates would leave nothing of
+/// small ones.
 struct Flatten {
+    centre: DVec3,
     plane: DVec4,
     light: DVec4,
 }
@@ -84,18 +90,18 @@ impl Flatten {
         if lamp <= 0.0 {
             return Vec::new();
         }
-        let mut corners: Vec<DVec3> = triangle.corners.iter().map(|corner| corner.as_dvec3()).collect();
+        let mut corners: Vec<DVec3> = triangle.corners.iter().map(|corner| corner - self.centre).collect();
         corners = keep(&corners, height);
         if self.light.w != 0.0 {
             // A little below the light: its own height has no shadow.
             corners = keep(&corners, |at| (1.0 - 1e-6) * lamp - height(at));
         }
         let matrix = planar_shadow(self.plane, self.light);
-        let flat: Vec<Vec3> = corners
+        let flat: Vec<DVec3> = corners
             .iter()
             .map(|corner| {
                 let at = matrix * corner.extend(1.0);
-                (at.truncate() / at.w).as_vec3()
+                self.centre + at.truncate() / at.w
             })
             .collect();
         (1..flat.len().saturating_sub(1))

@@ -14,7 +14,7 @@ pub(crate) fn shade(scene: &Scene, region: &Region, toward_eye: Vec3, transmitta
 }
 
 fn reflect(material: &Material, light: &Light, region: &Region, toward_eye: Vec3, passes: Vec3) -> Vec3 {
-    let (toward_light, incident) = light.arriving(region.point.position.as_dvec3(), passes);
+    let (toward_light, incident) = light.arriving(region.point.position, passes);
     let cosine = region.shading_normal.dot(toward_light);
     if cosine <= 0.0 {
         return Vec3::ZERO;

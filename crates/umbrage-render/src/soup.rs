@@ -1,4 +1,4 @@
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::borrow::Cow;
 use umbrage_bake::Caster;
 use umbrage_plane::View;
@@ -9,6 +9,8 @@ use umbrage_scene::{Mesh, MeshError, Object, Scene};
 ///
 /// Patches are diced for the view (W78-23), meshes are borrowed.
 pub struct Soup<'a> {
+    /// What the positions of the meshes are relative to.
+    origin: DVec3,
     pieces: Vec<Piece<'a>>,
 }
 
@@ -21,14 +23,14 @@ struct Piece<'a> {
 }
 
 impl Piece<'_> {
-    fn triangle(&self, local: usize) -> Triangle {
-        let corners = self.mesh.triangles[local].map(|vertex| self.mesh.positions[vertex as usize]);
-        Triangle { corners, object: self.object, sheet: self.sheet }
+    fn triangle(&self, origin: DVec3, local: usize) -> Triangle {
+        let world = |vertex: u32| origin + self.mesh.positions[vertex as usize].as_dvec3();
+        Triangle { corners: self.mesh.triangles[local].map(world), object: self.object, sheet: self.sheet }
     }
 
-    fn caster(&self, local: usize) -> Caster {
+    fn caster(&self, origin: DVec3, local: usize) -> Caster {
         let normals = self.mesh.triangles[local].map(|vertex| self.mesh.normals[vertex as usize]);
-        Caster::from(self.triangle(local)).with_passes(self.passes).with_normals(normals)
+        Caster::from(self.triangle(origin, local)).with_passes(self.passes).with_normals(normals)
     }
 }
 
@@ -36,8 +38,8 @@ impl<'a> Soup<'a> {
     /// The objects that cast: what pass 1 draws (R87-5).
     ///
     /// # Panics
-    /// When a mesh's indices or lengths do not fit together ([`Mesh::check`]). Vertices that are not finite only cost their
-    /// triangles, which the rasteriser skips and counts.
+    /// When a mesh's indices or lengths do not fit together ([`Mesh::check`]), or the scene's origin is not finite. Vertices
+    /// that are not finite only cost their triangles, which the rasteriser skips and counts.
     pub fn casters(scene: &'a Scene, view: &View) -> Self {
         Self::of(scene, view, |object| object.casts)
     }
@@ -45,17 +47,18 @@ impl<'a> Soup<'a> {
     /// Every object: what the camera sees.
     ///
     /// # Panics
-    /// When a mesh's indices or lengths do not fit together ([`Mesh::check`]). Vertices that are not finite only cost their
-    /// triangles, which the rasteriser skips and counts.
+    /// When a mesh's indices or lengths do not fit together ([`Mesh::check`]), or the scene's origin is not finite. Vertices
+    /// that are not finite only cost their triangles, which the rasteriser skips and counts.
     pub fn all(scene: &'a Scene, view: &View) -> Self {
         Self::of(scene, view, |_| true)
     }
 
     fn of(scene: &'a Scene, view: &View, keep: impl Fn(&Object) -> bool) -> Self {
+        let local = scene.about_origin(view);
         let mut first = 0;
         let mut pieces = Vec::new();
         for (id, object) in scene.objects.iter().enumerate().filter(|(_, object)| keep(object)) {
-            let mesh = object.shape.mesh_for(view);
+            let mesh = object.shape.mesh_for(&local);
             if let Err(fault) = mesh.check()
                 && !matches!(fault, MeshError::NotFinite { .. })
             {
@@ -65,7 +68,7 @@ impl<'a> Soup<'a> {
             pieces.push(Piece { object: id as u32, sheet: !object.solid, passes: object.passes, first, mesh });
             first += count;
         }
-        Self { pieces }
+        Self { origin: scene.origin, pieces }
     }
 
     /// Number of triangles.
@@ -78,20 +81,24 @@ impl<'a> Soup<'a> {
         self.len() == 0
     }
 
-    /// The triangles in order; a triangle's index counts from 0 over all objects.
+    /// The triangles in order, in world space; a triangle's index counts from 0 over all objects.
     pub fn triangles(&self) -> impl Iterator<Item = Triangle> + '_ {
-        self.pieces.iter().flat_map(|piece| (0..piece.mesh.triangles.len()).map(|local| piece.triangle(local)))
+        self.pieces
+            .iter()
+            .flat_map(|piece: &Piece| (0..piece.mesh.triangles.len()).map(|local| piece.triangle(self.origin, local)))
     }
 
     /// The same triangles, each with what passes its object and the shading normals of its mesh.
     pub fn casting(&self) -> impl Iterator<Item = Caster> + '_ {
-        self.pieces.iter().flat_map(|piece| (0..piece.mesh.triangles.len()).map(|local| piece.caster(local)))
+        self.pieces
+            .iter()
+            .flat_map(|piece| (0..piece.mesh.triangles.len()).map(|local| piece.caster(self.origin, local)))
     }
 
     /// As [`casting`](Self::casting), for who keeps no soup.
     pub fn into_casting(self) -> impl Iterator<Item = Caster> + 'a {
-        let pieces = self.pieces.into_iter();
-        pieces.flat_map(|piece| (0..piece.mesh.triangles.len()).map(move |local| piece.caster(local)))
+        let (origin, pieces) = (self.origin, self.pieces.into_iter());
+        pieces.flat_map(move |piece| (0..piece.mesh.triangles.len()).map(move |local| piece.caster(origin, local)))
     }
 
     /// The smooth piece of surface that a triangle belongs to; unique together with its object.
@@ -101,10 +108,17 @@ impl<'a> Soup<'a> {
     }
 
     /// A triangle's world corners and their shading normals.
-    pub(crate) fn corners(&self, triangle: u32) -> ([Vec3; 3], [Vec3; 3]) {
+    pub(crate) fn corners(&self, triangle: u32) -> ([DVec3; 3], [Vec3; 3]) {
         let (piece, local) = self.find(triangle);
         let vertices = piece.mesh.triangles[local].map(|vertex| vertex as usize);
-        (vertices.map(|vertex| piece.mesh.positions[vertex]), vertices.map(|vertex| piece.mesh.normals[vertex]))
+        (
+            vertices.map(|vertex| self.world(piece.mesh.positions[vertex])),
+            vertices.map(|vertex| piece.mesh.normals[vertex]),
+        )
+    }
+
+    fn world(&self, position: Vec3) -> DVec3 {
+        self.origin + position.as_dvec3()
     }
 
     fn find(&self, triangle: u32) -> (&Piece<'a>, usize) {

@@ -27,6 +27,7 @@ fn boards() -> Scene {
     let light = Light::point("lamp", DVec3::new(0.0, 0.0, 20.0), DVec3::ZERO, 90.0, 1.0, 99.0, UVec2::splat(8));
     Scene {
         name: "boards".into(),
+        origin: DVec3::ZERO,
         objects: vec![
             Object::solid("near", board(-9.0, edge, -5.0), Material::matt(Vec3::new(0.5, 0.0, 0.0))),
             Object::solid("far", board(-9.0, 4.0, -10.0), Material::matt(Vec3::new(0.0, 0.5, 0.0))),
@@ -63,9 +64,8 @@ fn r87_8_a_region_s_corners_are_its_pixel_s_on_the_tangent_plane() {
     let (scene, asked) = (boards(), Asked::default());
     picture(&scene, &[&asked], &Frame::CENTRES);
     for region in asked.0.into_inner().unwrap() {
-        let corners = region.corners.map(|corner| corner - region.position);
         let want = [(-0.5, 0.5), (0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)].map(|(x, y)| Vec3::new(x, y, 0.0));
-        for (corner, want) in corners.into_iter().zip(want) {
+        for (corner, want) in region.corner_offsets.into_iter().zip(want) {
             assert!(corner.abs_diff_eq(want, 1e-4), "{corner} {want}");
         }
         assert_eq!(region.normal, Vec3::Z);

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, IVec2, UVec2, Vec3};
 use umbrage_bake::{Deep, bake};
-use umbrage_depth::{DeepMap, DepthMap, First, Map, Raw, Storage};
+use umbrage_depth::{DepthMap, First, Map, Raw, Storage};
 use umbrage_plane::{SurfacePoint, TexelRect, View};
 use umbrage_raster::Cull;
 use umbrage_recipe::Recipe;
@@ -84,7 +84,7 @@ fn ext_2_moments_share_the_light_between_them() {
         Map::Tiled(tiles) => tiles,
         _ => panic!("one surface"),
     };
-    assert_eq!(tiles, expose(&view, &moments, 0, alone));
+    assert_eq!(*tiles, expose(&view, &moments, 0, alone));
 }
 
 #[test]

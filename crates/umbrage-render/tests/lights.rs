@@ -58,7 +58,8 @@ fn w78_24_planar_projection_agrees_with_the_map_on_its_plane_and_shadows_nothing
     let planar = Planar::new(&scene, &light, ground(), PLANE, 2048).unwrap();
     let flat = shot(&scene, &[Box::new(planar)]);
     let maps = light_maps(&scene, &"ordinary".parse().unwrap()).unwrap();
-    let mapped = shot(&scene, &[bind(presets::ordinary(Bias::World(0.6)), maps[0].as_ref().unwrap(), Storage::Raw)]);
+    let mapped =
+        shot(&scene, &[bind(presets::ordinary(Bias::World(0.6)).filter, maps[0].as_ref().unwrap(), Storage::Raw)]);
     let dark = |picture: &Picture, object: u32| -> Vec<bool> {
         (0..picture.object.len()).map(|i| picture.object[i] == object && picture.shadow[0][i] > 0.5).collect()
     };

@@ -10,12 +10,12 @@ use umbrage_render::post::{darken, low_pass, shadow_image};
 use umbrage_render::{Frame, Soup, picture};
 use umbrage_sample::Key;
 use umbrage_scene::{Scene, gallery};
-use umbrage_shadow::williams::{Dither, Lookup};
 use umbrage_shadow::{ShadowMap, Unshadowed, Williams};
 
 const KEY: Key = Key::new(0, 0, 0);
-const PLAIN: Williams =
-    Williams::default().with_bias(Bias::World(0.35)).with_lookup(Lookup::Nearest).with_dither(Dither::OFF);
+fn plain() -> Williams {
+    Williams::default().with_bias(Bias::World(0.35))
+}
 
 fn scene(pixels: u32) -> Scene {
     let mut scene = gallery::sphere_plane();
@@ -26,7 +26,7 @@ fn scene(pixels: u32) -> Scene {
 
 fn light(scene: &Scene) -> ShadowMap<Williams, Arc<Tiled>> {
     let view = &scene.lights[0].view;
-    ShadowMap { filter: PLAIN, map: bake(view, Soup::casters(scene, view).triangles(), &First, Cull::None).map }
+    ShadowMap { filter: plain(), map: bake(view, Soup::casters(scene, view).triangles(), &First, Cull::None).map }
 }
 
 #[test]
@@ -69,7 +69,7 @@ fn c_10_a_point_behind_the_light_answers_by_the_light_s_rules() {
     let share = |rules| {
         let view = eye(DVec3::Z).with_rules(rules);
         let map = Raw::new(view, vec![f32::INFINITY; 64]).unwrap();
-        shadow_image(&zeta, &observer, None, &ShadowMap { filter: PLAIN, map }, KEY).shadow
+        shadow_image(&zeta, &observer, None, &ShadowMap { filter: plain(), map }, KEY).shadow
     };
     assert_eq!((share(Rules::SPOT), share(Rules::OPEN)), (vec![1.0; 64], vec![0.0; 64]));
 }

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, IVec2, UVec2, Vec3};
 use umbrage_bake::{bake, bake_by_normals, bake_multi, bake_tags};
-use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Midpoint, Same, Second, Tiled};
+use umbrage_depth::{BackFace, DepthMap, First, Midpoint, Reduction, SameSurface, Second, Tiled};
 use umbrage_plane::{Sampling, SurfacePoint, TexelRect, View};
 use umbrage_raster::Cull;
 use umbrage_recipe::Recipe;
@@ -130,7 +130,7 @@ fn w92_3_texels_sampled_at_several_places_keep_the_two_nearest_surfaces_over_the
         assert_eq!(multi.depth(texel), nearest, "{texel}");
     }
     // Midpoints of whole texels lie behind every place of the nearest surface: no acne, whatever the texel.
-    let rule = Midpoint::default().with_same(Same::Surface);
+    let rule = Midpoint::default().with_same(SameSurface::Surface);
     let middle = bake_multi(&view, soup.triangles(), &rule, Cull::None, axis).unwrap().map;
     let by_depth = bake_multi(&view, soup.triangles(), &Midpoint::default(), Cull::None, axis).unwrap().map;
     let on_surface = |map: &Tiled| {
@@ -185,7 +185,7 @@ fn w92_11_memory_does_not_grow_with_the_number_of_objects() {
     }
     assert!(bytes(50, "reeves87,stored=deep,epsilon=0") > 10 * bytes(2, "reeves87,stored=deep,epsilon=0"));
     assert_eq!(
-        size_of::<<Midpoint as DepthRule>::Cell>(),
+        size_of::<<Midpoint as Reduction>::Cell>(),
         16,
         "two keys and what tells surfaces apart, while a map is drawn"
     );
@@ -208,7 +208,7 @@ fn wm94_11_shadows_may_be_given_the_interpolated_normal() {
         let heard = Heard(Mutex::new(Vec::new()));
         let seen = picture(&scene, &[&heard], &Frame { smooth, ..Frame::CENTRES });
         let on_ball = (0..seen.object.len()).filter(|&i| seen.object[i] == 0);
-        let radial: Vec<Vec3> = on_ball.map(|i| (seen.position[i] - centre).normalize()).collect();
+        let radial: Vec<Vec3> = on_ball.map(|i| (seen.position[i].as_vec3() - centre).normalize()).collect();
         let normals = heard.0.into_inner().unwrap();
         // Tiles come in any order: compare the largest angle to the nearest radial direction.
         let worst = |normal: &Vec3| radial.iter().map(|way| way.dot(*normal)).fold(-1.0, f32::max);

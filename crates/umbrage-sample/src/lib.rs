@@ -32,6 +32,8 @@
 //!
 //! This crate knows no map and no depth: what a tap finds is its caller's business.
 
+#![warn(missing_debug_implementations)]
+
 mod any;
 mod centre;
 mod disc;

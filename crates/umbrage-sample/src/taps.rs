@@ -4,6 +4,7 @@ use glam::Vec2;
 use umbrage_plane::{Footprint, vectorized};
 
 /// Up to sixteen sample positions of one region.
+#[derive(Clone, Copy, Debug)]
 pub struct Taps<S: Simd> {
     /// Columns, in texel space.
     pub x: f32x16<S>,

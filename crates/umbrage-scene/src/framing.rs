@@ -91,7 +91,7 @@ impl Scene {
     /// Ids of the objects that may throw a shadow onto something that the camera sees, judged by balls around them (EXT-9): all that
     /// a light's map has to hold.
     pub fn relevant_casters(&self, light: &View) -> Vec<u32> {
-        let balls: Vec<Option<Ball>> = self.objects.iter().map(|object| ball(object.shape.hull())).collect();
+        let balls: Vec<Option<Ball>> = self.objects.iter().map(|object| ball(self.hull(object))).collect();
         let seen: Vec<Ball> = self
             .objects
             .iter()
@@ -113,21 +113,21 @@ impl Scene {
     /// [`FrameError`].
     pub fn framed(&self, light: &Light) -> Result<Light, FrameError> {
         let relevant = self.relevant_casters(&light.view);
-        let points = relevant.iter().flat_map(|&id| self.objects[id as usize].shape.hull());
+        let points = relevant.iter().flat_map(|&id| self.hull(&self.objects[id as usize]));
         let ball = ball(points).ok_or(FrameError::Nothing)?;
-        Ok(Light { view: frame(&light.view, ball)?, ..light.clone() })
+        Ok(Light { view: fit(&light.view, ball)?, ..light.clone() })
     }
 }
 
-fn ball(points: impl Iterator<Item = glam::Vec3>) -> Option<Ball> {
-    Ball::around(&points.map(DVec3::from).collect::<Vec<_>>())
+fn ball(points: impl Iterator<Item = DVec3>) -> Option<Ball> {
+    Ball::around(&points.collect::<Vec<_>>())
 }
 
 /// `light` turned toward a ball and closed in around it: full angle 2·asin(R/d), near plane at d − R, far plane at d + R (V66).
 ///
 /// # Errors
 /// [`FrameError::Inside`] when a light in perspective stands within the ball; [`FrameError::View`] for a ball without extent.
-pub fn frame(light: &View, ball: Ball) -> Result<View, FrameError> {
+pub fn fit(light: &View, ball: Ball) -> Result<View, FrameError> {
     let size: UVec2 = light.size();
     let up = if light.ahead().y.abs() < 0.999 { DVec3::Y } else { DVec3::Z };
     let found = if light.is_perspective() {

@@ -27,7 +27,7 @@ pub mod tree;
 mod turned;
 
 pub use dice::{MOST_PIECES, dice};
-pub use framing::{Ball, FrameError, frame};
+pub use framing::{Ball, FrameError, fit};
 pub use light::Light;
 pub use mesh::{Mesh, MeshError};
 pub use patch::{Basis, Patch};

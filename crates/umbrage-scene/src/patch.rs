@@ -5,7 +5,7 @@ use glam::{DMat4, DVec3, DVec4, Vec3};
 /// The outside is where S_u × S_v points: with u to the right and v up, the side that faces the reader.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
-    /// Control points in world space; rows along v, u along each row.
+    /// Control points, relative to the scene's origin; rows along v, u along each row.
     pub control: [[Vec3; 4]; 4],
 }
 

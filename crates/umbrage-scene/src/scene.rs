@@ -1,7 +1,7 @@
 use crate::{Mesh, Patch, dice};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::borrow::Cow;
-use umbrage_plane::View;
+use umbrage_plane::{View, ViewError};
 
 use crate::Light;
 
@@ -16,6 +16,7 @@ pub enum Shape {
 
 impl Shape {
     /// The triangles to draw in `view`: a mesh as it is, patches diced so that no piece is larger than a texel ([`dice`]).
+    /// `view` stands in the shape's own space: see [`Scene::about_origin`].
     pub fn mesh_for(&self, view: &View) -> Cow<'_, Mesh> {
         match self {
             Self::Mesh(mesh) => Cow::Borrowed(mesh),
@@ -23,13 +24,24 @@ impl Shape {
         }
     }
 
-    /// Points whose convex hull holds the shape: vertices, or control points. World space.
+    /// Points whose convex hull holds the shape: vertices, or control points, relative to [`Scene::origin`].
     pub fn hull(&self) -> impl Iterator<Item = Vec3> + '_ {
         let (vertices, patches) = match self {
             Self::Mesh(mesh) => (mesh.positions.as_slice(), [].as_slice()),
             Self::Patches(patches) => ([].as_slice(), patches.as_slice()),
         };
         vertices.iter().copied().chain(patches.iter().flat_map(|patch| patch.control.into_iter().flatten()))
+    }
+
+    /// Multiplies all positions, rounding each once.
+    fn scale(&mut self, factor: f64) {
+        let scale = |at: &mut Vec3| *at = (at.as_dvec3() * factor).as_vec3();
+        match self {
+            Self::Mesh(mesh) => mesh.positions.iter_mut().for_each(scale),
+            Self::Patches(patches) => {
+                patches.iter_mut().flat_map(|patch| patch.control.iter_mut().flatten()).for_each(scale);
+            }
+        }
     }
 }
 
@@ -101,6 +113,9 @@ impl Object {
 pub struct Scene {
     /// Name for people and files.
     pub name: String,
+    /// The world-space point that the f32 positions of all meshes and patches are relative to. A scene far from the world's
+    /// origin keeps its own numbers small, and loses nothing. Lights and camera stand in world space.
+    pub origin: DVec3,
     /// Things, by id.
     pub objects: Vec<Object>,
     /// Lights, by id.
@@ -114,18 +129,66 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The scene moved by `by` world units, with its lights and camera: the same picture, to the roundings of f64.
+    ///
+    /// # Errors
+    /// [`ViewError`] when a view ends at a place that is not finite.
+    pub fn moved(mut self, by: DVec3) -> Result<Self, ViewError> {
+        self.origin += by;
+        self.camera = self.camera.moved(by)?;
+        for light in &mut self.lights {
+            light.view = light.view.moved(by)?;
+        }
+        Ok(self)
+    }
+
+    /// The scene `factor` times as large about the world's origin, with its lights, the distances in their trees, and its
+    /// camera. For powers of two nothing is rounded. Recipes, and whatever else is given in world units, must be scaled with it
+    /// for the same picture.
+    ///
+    /// # Errors
+    /// [`ViewError`], unless `factor` is positive and every view stays usable.
+    pub fn scaled(mut self, factor: f64) -> Result<Self, ViewError> {
+        self.origin *= factor;
+        self.camera = self.camera.scaled(factor)?;
+        for light in &mut self.lights {
+            light.view = light.view.scaled(factor)?;
+            light.tree = light.tree.take().map(|tree| tree.scaled(factor));
+        }
+        for object in &mut self.objects {
+            object.shape.scale(factor);
+        }
+        Ok(self)
+    }
+
+    /// A view of this scene from where the scene's own f32 numbers are at home: moved so that [`Scene::origin`] is 0. What
+    /// [`Shape::mesh_for`] wants.
+    ///
+    /// # Panics
+    /// When the scene's origin is not finite.
+    #[must_use]
+    pub fn about_origin(&self, view: &View) -> View {
+        view.moved(-self.origin).expect("a scene's origin is finite")
+    }
+
+    /// An object's hull ([`Shape::hull`]) in world space.
+    pub fn hull<'a>(&self, object: &'a Object) -> impl Iterator<Item = DVec3> + use<'a> {
+        let origin = self.origin;
+        object.shape.hull().map(move |at| origin + at.as_dvec3())
+    }
+
     /// Ids of the casting objects that are not wholly inside what a light sees; their shadows may be cut off (W78-8).
     ///
     /// Patches are judged by their control points, so that one may be named that just fits.
     pub fn casters_outside(&self, light: &View) -> Vec<u32> {
         let casters = self.objects.iter().enumerate().filter(|(_, object)| object.casts);
-        casters.filter(|(_, object)| !object.shape.hull().all(|at| sees(light, at))).map(|(id, _)| id as u32).collect()
+        casters.filter(|(_, object)| !self.hull(object).all(|at| sees(light, at))).map(|(id, _)| id as u32).collect()
     }
 }
 
 /// True when a world point lies inside the view's volume, near and far planes included.
-fn sees(view: &View, at: Vec3) -> bool {
-    let eye = view.world_to_eye().transform_point3(at.as_dvec3());
+fn sees(view: &View, at: DVec3) -> bool {
+    let eye = view.world_to_eye().transform_point3(at);
     let in_range = (view.near()..=view.far()).contains(&-eye.z);
     let texel = view.eye_to_texel(eye);
     let size = view.size().as_dvec2();

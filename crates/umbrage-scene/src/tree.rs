@@ -56,7 +56,7 @@ pub struct Distribution(pub Vec<f32>);
 
 /// What passes to the point, by the light's shadow map: 1 − shadow. A tree without this node casts no shadow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Unshadowed;
+pub struct Passing;
 
 /// The product of two.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,7 +113,7 @@ impl Emission for Distribution {
     }
 }
 
-impl Emission for Unshadowed {
+impl Emission for Passing {
     #[inline(always)]
     fn light(&self, sight: &Sight) -> Vec3 {
         sight.transmittance
@@ -168,7 +168,7 @@ pub enum Tree {
     Cone(Cone),
     /// See [`Distribution`].
     Distribution(Distribution),
-    /// The light's shadow, by a recipe of its own (R87-18: its own samples, softness and bias); see [`Unshadowed`] for the value.
+    /// The light's shadow, by a recipe of its own (R87-18: its own samples, softness and bias); see [`Passing`] for the value.
     Shadow {
         /// The algorithm and its parameters, as text; empty for whatever the picture uses. One light has one map and one recipe: the
         /// first that is met from the left counts.
@@ -186,6 +186,23 @@ impl Tree {
     /// A constant.
     pub fn colour(rgb: Vec3) -> Self {
         Self::Colour(Colour(rgb))
+    }
+
+    /// The same light in a world that is `factor` times as large: distances are multiplied. Recipes of shadow nodes are text,
+    /// and stay as they are.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        let all = |nodes: Vec<Self>| nodes.into_iter().map(|node| node.scaled(factor)).collect();
+        match self {
+            Self::Falloff(node) => {
+                let reference = (f64::from(node.reference) * factor) as f32;
+                Self::Falloff(Falloff { reference, ..node })
+            }
+            Self::Product(nodes) => Self::Product(all(nodes)),
+            Self::Sum(nodes) => Self::Sum(all(nodes)),
+            Self::Mix(nodes) => Self::Mix(Box::new(nodes.map(|node| node.scaled(factor)))),
+            other @ (Self::Colour(_) | Self::Cone(_) | Self::Distribution(_) | Self::Shadow { .. }) => other,
+        }
     }
 
     /// The recipe of the first shadow node; `None` when the light casts no shadow.
@@ -206,7 +223,7 @@ impl Emission for Tree {
             Self::Falloff(node) => node.light(sight),
             Self::Cone(node) => node.light(sight),
             Self::Distribution(node) => node.light(sight),
-            Self::Shadow { .. } => Unshadowed.light(sight),
+            Self::Shadow { .. } => Passing.light(sight),
             Self::Product(nodes) => all(nodes, sight, Vec3::ONE, |a, b| a * b),
             Self::Sum(nodes) => all(nodes, sight, Vec3::ZERO, |a, b| a + b),
             Self::Mix(nodes) => {

@@ -15,7 +15,7 @@
 //! let size = UVec2::splat(64);
 //! let lamp = View::perspective(DVec3::Y * 10.0, DVec3::ZERO, DVec3::NEG_Z, 1.0, 1.0, 100.0, size)?;
 //! let depths = (0..64 * 64).map(|i| if i % 64 < 32 { 5.0 } else { f32::INFINITY }).collect();
-//! let shadow = ShadowMap { filter: presets::reeves87(), map: Raw::new(lamp, depths)? };
+//! let shadow = ShadowMap { filter: presets::reeves87().filter, map: Raw::new(lamp, depths)? };
 //!
 //! let key = Key::new(0, 0, 0);
 //! assert_eq!(shadow.fraction(&SurfacePoint::at(Vec3::new(-2.0, 0.0, 0.0), Vec3::Y), key), 1.0);
@@ -25,6 +25,8 @@
 //!
 //! Conventions: 1 is dark (`shadow`), equality is lit, a sample outside the map answers by the view's
 //! [`Rules`](umbrage_plane::Rules). This crate draws nothing and opens no file.
+
+#![warn(missing_debug_implementations)]
 
 pub mod as_printed;
 mod depths;
@@ -36,14 +38,15 @@ mod probe;
 mod query;
 mod surfaces;
 
-pub use depths::{AnyDepth, Biased, Cone, OnPlane, Radius, ReceiverDepth, Spread};
+pub use depths::{AnyDepth, BiasCone, Biased, OnPlane, Radius, ReceiverDepth, Spread};
 pub use fearless_simd::Simd;
 pub use filters::{
-    Conditional, Extent, Falloff, IntegerFirst, Opacity, Ordinary, Pcf, Soft, Softness, VirtualWhen, Williams, factor,
-    integer_first, williams,
+    Conditional, FilteredDepth, IntegerFirst, MapRadius, OccluderFalloff, Opacity, Pcf, Soft, Softness, VirtualWhen,
+    Williams, integer_first, williams,
 };
 pub use lights::{Around, AroundError, Evaluate, LatLong, LatLongError, Shadow, ShadowMap, Tags, Unshadowed};
 pub use mean::weighted_mean;
+pub use presets::{Preset, StoredError};
 pub use probe::{Counters, Probe};
 pub use query::{Filter, Query};
 pub use surfaces::{Met, Seen, Surfaces};

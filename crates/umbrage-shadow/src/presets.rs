@@ -1,51 +1,136 @@
-//! Each paper as one short choice of parts.
+//! Each paper as one short choice of parts, with the surface that its map must store.
+//!
+//! ```
+//! use glam::{DVec3, UVec2};
+//! use umbrage_depth::{Raw, Stored};
+//! use umbrage_plane::View;
+//! use umbrage_shadow::presets;
+//!
+//! let lamp = View::perspective(DVec3::Y * 10.0, DVec3::ZERO, DVec3::NEG_Z, 1.0, 1.0, 100.0, UVec2::splat(4))?;
+//! let nearest = Raw::new(lamp, vec![5.0; 16])?;
+//! // Without a bias, half of every lit surface would lie in its own shadow.
+//! let refused = presets::woo92().over(nearest.clone()).unwrap_err();
+//! assert_eq!(refused.to_string(), "woo92 expects a map of midpoints, but this one stores nearest surfaces");
+//! // These are midpoints; and whoever wants the mixture says so.
+//! assert!(presets::woo92().over(nearest.clone().with_stored(Stored::Midpoint)).is_ok());
+//! let mixture = presets::woo92().over_any(nearest);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::williams::Williams;
-use crate::{Biased, Conditional, Falloff, Pcf, Soft};
+use crate::{Biased, Conditional, Filter, OccluderFalloff, Pcf, ShadowMap, Soft};
+use umbrage_depth::{DepthMap, Stored};
 use umbrage_plane::Bias;
 use umbrage_sample::{Centre, Density, Disc, Jittered};
 
+/// A paper's filter, and which surface its map must store for its comparison to be right.
+///
+/// The filter alone, `filter`, expects nothing and goes over any map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Preset<F> {
+    /// The paper, as recipes name it.
+    pub name: &'static str,
+    /// How the map is asked.
+    pub filter: F,
+    /// What the map must store: one of these. Never empty.
+    pub expects: &'static [Stored],
+}
+
+/// A preset was put over a map that stores another surface than its paper's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{preset} expects a map of {expected}, but this one stores {found}")]
+pub struct StoredError {
+    /// The preset.
+    pub preset: &'static str,
+    /// What the paper stores.
+    pub expected: Stored,
+    /// What the map stores.
+    pub found: Stored,
+}
+
+impl<F: Filter> Preset<F> {
+    /// The paper's shadows from a map.
+    ///
+    /// # Errors
+    /// [`StoredError`], when the map stores a surface that the paper's comparison is not made for.
+    pub fn over<M: DepthMap>(self, map: M) -> Result<ShadowMap<F, M>, StoredError> {
+        self.check(map.stored())?;
+        Ok(self.over_any(map))
+    }
+
+    /// The filter over a map, whatever that stores.
+    pub fn over_any<M: DepthMap>(self, map: M) -> ShadowMap<F, M> {
+        ShadowMap { filter: self.filter, map }
+    }
+
+    /// Whether a map that stores this surface is one that the paper means.
+    ///
+    /// # Errors
+    /// [`StoredError`], when it is not.
+    pub fn check(&self, found: Stored) -> Result<(), StoredError> {
+        if self.expects.contains(&found) {
+            return Ok(());
+        }
+        Err(StoredError { preset: self.name, expected: self.expects[0], found })
+    }
+}
+
 /// Williams 1978: nearest texel, no dither, two quanta of 16-bit depth (W78-2, W78-11, W78-12).
 ///
-/// Meant for a 16-bit screen-depth map; the historical size is 512² in both views.
-pub fn williams78() -> Williams {
-    Williams::default()
+/// The bias is in units of the stored numbers, so that it suits a map of 16-bit screen depth only; the historical size is 512² in both
+/// views. Edges are as coarse as the map's texels.
+pub fn williams78() -> Preset<Williams> {
+    Preset { name: "williams78", filter: Williams::default(), expects: &[Stored::First] }
 }
 
 /// Reeves, Salesin & Cook 1987 as their listing sets the parameters (R87-12; the `fig4` preset of E-R18).
-pub fn reeves87() -> Pcf {
-    Pcf::default()
+///
+/// The bias, drawn from .3 to .4, is in world units, for scenes of about 100 units: multiply it by the size of yours. It is wider than
+/// some contacts, where light leaks, and too small for the steep texels of a low light.
+pub fn reeves87() -> Preset<Pcf> {
+    Preset { name: "reeves87", filter: Pcf::default(), expects: &[Stored::First] }
 }
 
-/// Reeves' advice in the text: at least two samples an axis, from at least four texels (R87-12, E-R18).
-pub fn reeves87_recommended() -> Pcf {
-    Pcf::default().with_pattern(Jittered::default().with_min_samples(2)).with_min_size(1.0)
+/// Reeves' advice in the text: at least two samples on each axis, from at least four texels (R87-12, E-R18). The bias is that of [`reeves87`].
+pub fn reeves87_recommended() -> Preset<Pcf> {
+    let filter = Pcf::default().with_pattern(Jittered::default().with_min_samples(2)).with_min_size(1.0);
+    Preset { name: "reeves87-recommended", filter, expects: &[Stored::First] }
 }
 
 /// The ordinary depth buffer of Reeves' Figure 6a: one sample at the centre, no jitter, nearest texel (R87-15).
-pub fn ordinary(bias: Bias) -> Pcf<Centre> {
-    Pcf::default().with_pattern(Centre).with_depth(Biased::constant(bias)).with_res_factor(0.0).with_min_size(0.0)
+pub fn ordinary(bias: Bias) -> Preset<Pcf<Centre>> {
+    let one = Pcf::default().with_pattern(Centre).with_depth(Biased::constant(bias));
+    Preset { name: "ordinary", filter: one.with_res_factor(0.0).with_min_size(0.0), expects: &[Stored::First] }
 }
 
 /// Woo 1992: the listing of 1987 without any bias, over a map of midpoints (W92-3, W92-5, W92-8).
 ///
-/// Meant for a spot light with [`Rules::SPOT`](umbrage_plane::Rules::SPOT), which are Woo's rule of the cone (W92-6); the paper's map is 256² under 75°.
-pub fn woo92() -> Pcf {
-    Pcf::default().with_depth(Biased::constant(Bias::ZERO))
+/// Meant for a spot light with [`Rules::SPOT`](umbrage_plane::Rules::SPOT), which are Woo's rule of the cone (W92-6); the paper's map is 256²
+/// under 75°. Solids thinner than a texel's own step of depth shadow themselves.
+pub fn woo92() -> Preset<Pcf> {
+    let filter = Pcf::default().with_depth(Biased::constant(Bias::ZERO));
+    Preset { name: "woo92", filter, expects: &[Stored::Midpoint] }
 }
 
-/// Wang & Molnar 1994: the nearest four texels of a map of second surfaces, the tangent plane where they disagree, no bias (WM94-5 to WM94-15).
-pub fn wang_molnar94() -> Conditional {
-    Conditional::default()
+/// Wang & Molnar 1994: the nearest four texels of a map of second surfaces, the tangent plane where they disagree, no bias (WM94-5 to
+/// WM94-15).
+///
+/// Needs closed solids, or sheets that are flagged as such. Back faces are second surfaces where solids do not reach into each other.
+pub fn wang_molnar94() -> Preset<Conditional> {
+    Preset { name: "wang-molnar94", filter: Conditional::default(), expects: &[Stored::BackFace, Stored::Second] }
 }
 
 /// Burley 2006: soft shadows from one map with the bias cone (B06-1 to B06-8).
-pub fn burley() -> Soft {
-    Soft::default()
+///
+/// The cone's slope of 2 is free of false shadow up to a tilt of 63.4° between surface and light; steeper surfaces shadow themselves. Its
+/// bias grows with the distance that is looked at, so that wide filters lose low occluders.
+pub fn burley() -> Preset<Soft> {
+    Preset { name: "burley", filter: Soft::default(), expects: &[Stored::First] }
 }
 
 /// Fernando 2005, as Burley describes it: search taps spread evenly, their plain mean, a constant bias (B06-9).
-pub fn fernando(bias: Bias) -> Soft<Biased> {
+pub fn fernando(bias: Bias) -> Preset<Soft<Biased>> {
     let search = Disc::default().with_density(Density::Uniform);
-    burley().with_search(search).with_falloff(Falloff::Flat).with_depth(Biased::constant(bias))
+    let soft = Soft::default().with_search(search).with_falloff(OccluderFalloff::Flat);
+    Preset { name: "fernando", filter: soft.with_depth(Biased::constant(bias)), expects: &[Stored::First] }
 }

@@ -2,9 +2,10 @@ use crate::surfaces::{Channel, Met, Seen, Surfaces};
 use crate::{Probe, ReceiverDepth};
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::{IVec2, Vec2};
+use std::fmt;
 use std::sync::Arc;
 use umbrage_depth::{DepthMap, Translucent};
-use umbrage_plane::{Footprint, Receiver, TexelRect, Verdict, View, floor_texel};
+use umbrage_plane::{Footprint, Receiver, TexelRect, Verdict, View};
 use umbrage_sample::{Key, Pattern, Taps};
 
 /// Combines what a map says around a receiver into a fraction in shadow.
@@ -183,25 +184,21 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         depth: &impl ReceiverDepth,
         mut behind: impl FnMut(&mut P, f32x16<S>, f32x16<S>, u32) -> u32,
     ) -> f32 {
-        let (simd, map, receiver, channel) = (self.simd, self.map, self.receiver, self.channel);
-        let view = map.view();
+        let (simd, map, view, channel) = (self.simd, self.map, self.view(), self.channel);
         let rect = TexelRect::around(region.centre, region.half);
         let inside = view.holds(region.centre, region.half);
-        let deep = map.translucent();
-        let weighted = pattern.weighted();
+        let (deep, weighted) = (map.translucent(), pattern.weighted());
         let probe = &mut *self.probe;
-        let (mut hits, mut count, mut looked) = (0.0, 0.0, 0);
-        pattern.taps(
-            simd,
+        let (mut hits, mut count) = (0.0, 0.0);
+        let looked = Self::visit(
+            (simd, view, self.receiver, self.key),
             region,
-            self.key,
+            (pattern, depth),
             #[inline(always)]
-            |taps| {
-                let compared = depth.lanes(simd, view, receiver, taps);
-                looked += taps.mask.count_ones();
+            |taps, compared| {
                 if let Some(deep) = deep {
                     let from = Passing { deep, channel, view, inside, weighted };
-                    from.add(simd, taps, compared, (&mut hits, &mut count));
+                    from.add(taps, &compared.into(), (&mut hits, &mut count));
                     return;
                 }
                 let stored = map.look(simd, rect, taps.x, taps.y);
@@ -253,21 +250,17 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         depth: &impl ReceiverDepth,
         mut f: impl FnMut(&Seen<'_>),
     ) {
-        let (simd, map, receiver) = (self.simd, self.map, self.receiver);
-        let view = map.view();
+        let (simd, map, view) = (self.simd, self.map, self.view());
         let rect = TexelRect::around(region.centre, region.half);
         let inside = view.holds(region.centre, region.half);
         let this = &*self;
-        let mut looked = 0;
-        pattern.taps(
-            simd,
+        let looked = Self::visit(
+            (simd, view, self.receiver, self.key),
             region,
-            self.key,
+            (pattern, depth),
             #[inline(always)]
-            |taps| {
-                let compared = depth.lanes(simd, view, receiver, taps);
+            |taps, compared| {
                 let stored = map.look(simd, rect, taps.x, taps.y);
-                looked += taps.mask.count_ones();
                 for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
                     let tap = taps.tap(i);
                     let ruled = if inside { None } else { by_rule(view, tap.at) };
@@ -292,21 +285,38 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         depth: &impl ReceiverDepth,
         mut f: impl FnMut(&Taps<S>, f32x16<S>, f32x16<S>),
     ) {
-        let (simd, map, receiver) = (self.simd, self.map, self.receiver);
-        let view = map.view();
+        let (simd, map) = (self.simd, self.map);
         let rect = TexelRect::around(region.centre, region.half);
+        let looked = Self::visit(
+            (simd, self.view(), self.receiver, self.key),
+            region,
+            (pattern, depth),
+            #[inline(always)]
+            |taps, compared| f(taps, compared, map.look(simd, rect, taps.x, taps.y)),
+        );
+        self.count(looked);
+    }
+
+    /// Calls `f` with sixteen taps of a region at a time and the depths that are compared there. Returns the number of taps.
+    #[inline(always)]
+    fn visit(
+        (simd, view, receiver, key): (S, &View, &Receiver, Key),
+        region: &Footprint,
+        (pattern, depth): (&impl Pattern, &impl ReceiverDepth),
+        mut f: impl FnMut(&Taps<S>, f32x16<S>),
+    ) -> u32 {
         let mut looked = 0;
         pattern.taps(
             simd,
             region,
-            self.key,
+            key,
             #[inline(always)]
             |taps| {
                 looked += taps.mask.count_ones();
-                f(taps, depth.lanes(simd, view, receiver, taps), map.look(simd, rect, taps.x, taps.y));
+                f(taps, depth.lanes(simd, view, receiver, taps));
             },
         );
-        self.count(looked);
+        looked
     }
 
     /// What one texel stores. Places outside the map hold nothing; whether they are lit is for [`Query::placed`] to say.
@@ -330,6 +340,12 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
     }
 }
 
+impl<S: Simd, M, P> fmt::Debug for Query<'_, S, M, P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Query").field("receiver", self.receiver).field("key", &self.key).finish_non_exhaustive()
+    }
+}
+
 /// What a deep map lets through at taps.
 struct Passing<'a> {
     deep: &'a dyn Translucent,
@@ -341,23 +357,24 @@ struct Passing<'a> {
 }
 
 impl Passing<'_> {
-    /// Adds what does not pass at each tap, and the taps' weights.
-    #[inline(always)]
-    fn add<S: Simd>(&self, simd: S, taps: &Taps<S>, compared: f32x16<S>, (hits, count): (&mut f32, &mut f32)) {
+    /// Adds what does not pass at each tap, and the taps' weights. Apart from the loop around it, because that is compiled many times.
+    #[inline(never)]
+    fn add<S: Simd>(&self, taps: &Taps<S>, compared: &[f32; 16], (hits, count): (&mut f32, &mut f32)) {
         let grey = self.deep.is_grey();
-        let (column, row) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
         for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
+            let at = taps.tap(i).at;
             let weight = if self.weighted { taps.weight[i] } else { 1.0 };
-            let ruled = if self.inside { None } else { by_rule(self.view, taps.tap(i).at) };
-            let passes = || self.deep.transmittance(IVec2::new(column[i], row[i]), compared[i]);
+            let ruled = if self.inside { None } else { by_rule(self.view, at) };
+            let passes = || self.deep.transmittance(at.floor().as_ivec2(), compared[i]);
             *count += weight;
             *hits += weight * ruled.unwrap_or_else(|| 1.0 - self.channel.of(passes(), grey));
         }
     }
 }
 
-/// The hits of a batch of taps with those outside the map or the cone answered by the view's rules (spec C-10, W92-6).
-#[inline(always)]
+/// The hits of a batch of taps with those outside the map or the cone answered by the view's rules (spec C-10, W92-6). Few regions reach
+/// out, so that this stands apart from the loop around it, which is compiled many times.
+#[inline(never)]
 fn by_rules<S: Simd>(view: &View, taps: &Taps<S>, mut nearer: u32) -> u32 {
     for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
         match by_rule(view, taps.tap(i).at) {

@@ -25,6 +25,7 @@ impl Channel {
 }
 
 /// What [`Query::each`] reports of one tap.
+#[derive(Clone, Debug)]
 pub struct Seen<'a> {
     /// Where it is, and its weight.
     pub tap: Tap,
@@ -46,6 +47,7 @@ impl Seen<'_> {
 }
 
 /// What a tap meets.
+#[derive(Clone, Debug)]
 pub enum Met<'a> {
     /// Its place settles the answer by the view's [`Rules`](umbrage_plane::Rules): 0 is lit, 1 is in shadow. Whatever the map
     /// holds there does not count.

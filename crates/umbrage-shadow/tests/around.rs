@@ -31,7 +31,7 @@ fn facing(direction: DVec3, size: f64, region: u32) -> SurfacePoint {
     let down = direction.cross(across);
     let centre = EYE + direction * 10.0;
     let corners = [across + down, across - down, -across - down, down - across].map(|step| (centre + step).as_vec3());
-    SurfacePoint { corners, region, ..SurfacePoint::at(centre.as_vec3(), -direction.as_vec3()) }
+    SurfacePoint { region, ..SurfacePoint::at(centre.as_vec3(), -direction.as_vec3()).with_corners(corners) }
 }
 
 fn exact<P: Pattern>(pattern: P) -> Pcf<P, Biased> {
@@ -103,11 +103,11 @@ fn t_16_virtual_samples_cross_cube_seams() {
         let (across, up) = (f64::from(KEY.signed(step, 0)) * 0.4, f64::from(KEY.signed(step, 1)) * 6.0);
         let centre = normal * 10.0 + DVec3::new(1.0, 0.0, -1.0).normalize() * across + DVec3::Y * up;
         let at = SurfacePoint { region: step, ..facing(centre, 0.5, step) };
-        let at = SurfacePoint { position: (EYE + centre).as_vec3(), normal: -normal.as_vec3(), ..at };
+        let at = SurfacePoint { position: EYE + centre, normal: -normal.as_vec3(), ..at };
         let corners = [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)].map(|(a, b)| {
             (EYE + centre + DVec3::new(1.0, 0.0, -1.0).normalize() * 0.25 * a + DVec3::Y * 0.25 * b).as_vec3()
         });
-        assert_eq!(around.fraction(&SurfacePoint { corners, ..at }, KEY), 0.0, "{step}");
+        assert_eq!(around.fraction(&at.with_corners(corners), KEY), 0.0, "{step}");
     }
 }
 
@@ -118,8 +118,8 @@ fn sectors() -> Vec<Raw> {
 
 #[test]
 fn w78_10_both_evaluators_agree_and_sectors_see_what_the_cube_sees() {
-    let cube = Around::new(presets::ordinary(Bias::World(0.01)), cube(256, Kind::Radial, cap)).unwrap();
-    let own = Around::new(presets::ordinary(Bias::World(0.01)), sectors()).unwrap();
+    let cube = Around::new(presets::ordinary(Bias::World(0.01)).filter, cube(256, Kind::Radial, cap)).unwrap();
+    let own = Around::new(presets::ordinary(Bias::World(0.01)).filter, sectors()).unwrap();
     assert_eq!((own.bytes(), own.evaluate), (5 * 200 * 180 * 4, Evaluate::Own));
     let mut every = own.clone();
     every.evaluate = Evaluate::Every;
@@ -154,13 +154,7 @@ fn r87_17_latitude_and_longitude_agree_with_the_cube_across_the_date_line_and_at
             let about = side * turn.cos() + middle.cross(side) * turn.sin();
             let at = facing(middle * away.cos() + about * away.sin(), 0.5, step);
             // Near a pole a region's box in latitude and longitude is wider than the region.
-            if at
-                .position
-                .as_dvec3()
-                .distance(EYE + DVec3::Y * 10.0)
-                .min(at.position.as_dvec3().distance(EYE - DVec3::Y * 10.0))
-                > 1.5
-            {
+            if at.position.distance(EYE + DVec3::Y * 10.0).min(at.position.distance(EYE - DVec3::Y * 10.0)) > 1.5 {
                 worst = worst.max((lat_long.fraction(&at, KEY) - cube.fraction(&at, KEY)).abs());
             }
         }
@@ -173,7 +167,7 @@ fn r87_17_latitude_and_longitude_agree_with_the_cube_across_the_date_line_and_at
 
 #[test]
 fn views_that_do_not_stand_around_one_light_are_refused() {
-    let new = |maps: Vec<Raw>| Around::new(presets::reeves87(), maps).map(|_| ()).unwrap_err();
+    let new = |maps: Vec<Raw>| Around::new(presets::reeves87().filter, maps).map(|_| ()).unwrap_err();
     assert_eq!(new(Vec::new()), AroundError::Empty);
     let flat = View::orthographic(EYE, EYE + DVec3::X, DVec3::Y, 1.0, 0.1, 9.0, UVec2::ONE).unwrap();
     let empty = |view: View| Raw::new(view, vec![f32::INFINITY; view.size().element_product() as usize]).unwrap();

@@ -6,7 +6,7 @@ use umbrage_depth::{DepthMap, Step, Translucent};
 use umbrage_plane::{Bias, DepthRange, Footprint, Kind, Receiver, Rules, SurfacePoint, TexelRect, View, cube_views};
 use umbrage_sample::{Centre, EveryTexel, Key};
 use umbrage_shadow::{
-    Around, Biased, Counters, Extent, Filter, IntegerFirst, OnPlane, Pcf, Shadow, ShadowMap, Softness, VirtualWhen,
+    Around, Biased, Counters, Filter, IntegerFirst, MapRadius, OnPlane, Pcf, Shadow, ShadowMap, Softness, VirtualWhen,
     presets,
 };
 
@@ -94,8 +94,8 @@ fn exact() -> Biased {
 fn v56_b06_11_filters_average_what_passes_and_never_cull() {
     let map = v56(0);
     let plane = OnPlane::default();
-    let narrow = Softness::Between { min: Extent::Texels(0.5), max: Extent::Texels(2.0) };
-    let soft = presets::fernando(Bias::ZERO).with_softness(narrow);
+    let narrow = Softness::Between { min: MapRadius::Texels(0.5), max: MapRadius::Texels(2.0) };
+    let soft = presets::fernando(Bias::ZERO).filter.with_softness(narrow);
     for (depth, dark) in [(1.0, 0.0), (2.0, 0.0), (2.5, 0.4), (5.0, 0.4), (5f32.next_up(), 1.0), (50.0, 1.0)] {
         let receiver = at(&map.view, depth, Vec2::splat(16.3), 1.5);
         let close = |name: &str, (found, counters): (f32, Counters)| {
@@ -111,9 +111,12 @@ fn v56_b06_11_filters_average_what_passes_and_never_cull() {
                 &receiver,
             ),
         );
-        close("centre", ask(&presets::ordinary(Bias::ZERO), &map, &receiver));
+        close("centre", ask(&presets::ordinary(Bias::ZERO).filter, &map, &receiver));
         for when in [VirtualWhen::Mixed, VirtualWhen::Always, VirtualWhen::Never] {
-            close("conditional", ask(&presets::wang_molnar94().with_when(when).with_plane(plane), &map, &receiver));
+            close(
+                "conditional",
+                ask(&presets::wang_molnar94().filter.with_when(when).with_plane(plane), &map, &receiver),
+            );
         }
         close("soft", ask(&soft, &map, &receiver));
     }
@@ -132,8 +135,8 @@ fn v56_b06_11_filters_average_what_passes_and_never_cull() {
 #[test]
 fn t_19_occluders_are_found_by_the_nearest_surface_not_by_the_first_opaque_one() {
     // Burley's factor of a receiver at 10 is .8 for an occluder at 2 and .5 for one at 5: radii of 8 and of 5 texels of 10.
-    let softness = Softness::Between { min: Extent::Texels(0.0), max: Extent::Texels(8.0) };
-    let mut soft = presets::fernando(Bias::ZERO).with_softness(softness);
+    let softness = Softness::Between { min: MapRadius::Texels(0.0), max: MapRadius::Texels(8.0) };
+    let mut soft = presets::fernando(Bias::ZERO).filter.with_softness(softness);
     soft.search.num_samples = 1024;
     soft.blur.num_samples = 4096;
     let reaches = |columns: f32| ask(&soft, &v56(16), &at(&lamp(), 10.0, Vec2::new(16.0 - columns, 16.3), 0.0)).0;
@@ -199,7 +202,7 @@ fn b06_11_t_16_lights_in_all_directions_forward_what_passes_across_seams() {
     // A pane before one face alone: the other faces have no colours, and pass all light alike.
     let mut maps = cube(&[(2.0, [0.5; 3])], false);
     maps[0] = Layers { surfaces: vec![(2.0, [0.1, 0.6, 1.0])], coloured: true, ..maps[0].clone() };
-    let pane = Around::new(presets::ordinary(Bias::ZERO), maps).unwrap();
+    let pane = Around::new(presets::ordinary(Bias::ZERO).filter, maps).unwrap();
     for (direction, wanted) in [(Vec3::X, Vec3::new(0.9, 0.4, 0.0)), (Vec3::Y, Vec3::splat(0.5))] {
         let point = SurfacePoint::at(direction * 3.5, -direction);
         pane.transmittances(&[point], KEY, &[pane.fraction(&point, KEY)], &mut passes);

@@ -5,7 +5,7 @@ use umbrage_depth::{Raw, Tiled};
 use umbrage_plane::{Bias, Footprint, Kind, Receiver, Rules, SurfacePoint, View, Where};
 use umbrage_sample::{EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Uniform};
 use umbrage_shadow::as_printed::{Counts, FootprintConvention, Listing, RandRange, TextureRect, counts, sample_shadow};
-use umbrage_shadow::{Biased, Counters, Filter, OnPlane, Ordinary, Pcf, Shadow, ShadowMap, Spread, presets};
+use umbrage_shadow::{Biased, Counters, Filter, FilteredDepth, OnPlane, Pcf, Shadow, ShadowMap, Spread, presets};
 
 const KEY: Key = Key::new(7, 0, 0);
 
@@ -48,7 +48,7 @@ fn v01_figure_2_ordinary_against_percentage_closer_r87_9_r87_10() {
         .with_res_factor(1.0)
         .with_min_size(0.0);
     assert!((fraction(exhaustive, map.clone(), &region, KEY) - 5.0 / 9.0).abs() < 1e-6);
-    let ordinary = Ordinary::default().with_pattern(EveryTexel).with_bias(Bias::ZERO).with_res_factor(1.0);
+    let ordinary = FilteredDepth::default().with_pattern(EveryTexel).with_bias(Bias::ZERO).with_res_factor(1.0);
     assert_eq!(fraction(ordinary, map, &region, KEY), 1.0);
 }
 
@@ -150,7 +150,7 @@ fn v10_e_r10_truncation_reads_column_0_for_samples_left_of_the_map() {
     let printed = mean_printed(&listing, &dark_edge, [-0.4 / 16.0, 0.5], 10.0, [0.0, 0.0], 1);
     assert_eq!(printed, 1.0);
     let point = receiver(&lamp(16), 10.0, Vec2::new(-0.4, 8.0), Vec2::ZERO);
-    assert_eq!(fraction(presets::ordinary(Bias::ZERO), dark_edge, &point, KEY), 0.0);
+    assert_eq!(fraction(presets::ordinary(Bias::ZERO).filter, dark_edge, &point, KEY), 0.0);
 }
 
 #[test]
@@ -159,10 +159,10 @@ fn v11_v12_v13_v14_behind_and_empty_maps_are_lit_e_r11_e_r12_e_r14() {
     let listing = Listing::default();
     assert_eq!(mean_printed(&listing, &near, [0.5; 2], -1.0, [0.1; 2], 1), 0.0);
     let behind = SurfacePoint::at(Vec3::new(0.0, 1.0, 0.0), Vec3::Y);
-    assert_eq!(ShadowMap { filter: presets::reeves87(), map: near }.fraction(&behind, KEY), 0.0);
+    assert_eq!(ShadowMap { filter: presets::reeves87().filter, map: near }.fraction(&behind, KEY), 0.0);
     let empty = map(16, |_, _| f32::INFINITY);
     let region = receiver(&lamp(16), 1e9, Vec2::splat(8.0), Vec2::splat(1.0));
-    assert_eq!(fraction(presets::reeves87(), Tiled::from(&empty), &region, KEY), 0.0);
+    assert_eq!(fraction(presets::reeves87().filter, Tiled::from(&empty), &region, KEY), 0.0);
     // The listing: an empty rectangle, a region outside it, and nothing but empty texels.
     let nothing = TextureRect { umin: 16, umax: -1, vmin: 16, vmax: -1 };
     let two = TextureRect { umin: 0, umax: 1, vmin: 0, vmax: 1 };
@@ -173,7 +173,7 @@ fn v11_v12_v13_v14_behind_and_empty_maps_are_lit_e_r11_e_r12_e_r14() {
     assert_eq!(sample_shadow(&listing, &corner, two, [0.75; 2], 10.0, [0.02; 2], || 0.5), 0.0);
     assert_eq!(sample_shadow(&listing, &corner, two, [0.06; 2], 10.0, [0.001; 2], || 0.5), 1.0);
     let mut probe = Counters::default();
-    let shadow = ShadowMap { filter: presets::reeves87(), map: umbrage_depth::Bbox::from(&corner) };
+    let shadow = ShadowMap { filter: presets::reeves87().filter, map: umbrage_depth::Bbox::from(&corner) };
     let at = SurfacePoint::at(Vec3::new(4.0, -10.0, 4.0), Vec3::Y);
     let mut out = [f32::NAN];
     shadow.fractions_probed(&[at], KEY, &mut out, &mut probe);
@@ -185,7 +185,7 @@ fn v15_v23_bias_range_r87_14_e_r9() {
     let share = |stored: f32| {
         let flat = map(16, |_, _| stored);
         let region = receiver(&lamp(16), 10.0, Vec2::splat(8.0), Vec2::splat(1.0));
-        let shadow = ShadowMap { filter: presets::reeves87(), map: flat };
+        let shadow = ShadowMap { filter: presets::reeves87().filter, map: flat };
         (0..4000).map(|i| shadow.fraction_of(&region, KEY.region(i))).sum::<f32>() / 4000.0
     };
     assert!((share(9.65) - 0.5).abs() < 0.01);
@@ -270,8 +270,8 @@ fn v33_t_4_ranges_settle_a_region_only_when_they_may_r87_22() {
         let region = receiver(&lamp(32), z, Vec2::splat(16.0), Vec2::splat(2.0));
         let mut probe = Counters::default();
         let ask = |filter: Pcf, probe: &mut Counters| ShadowMap { filter, map }.fraction_of_probed(&region, KEY, probe);
-        let answer = ask(presets::reeves87(), &mut probe);
-        assert_eq!(answer, ask(presets::reeves87().with_cull(false), &mut Counters::default()), "z = {z}");
+        let answer = ask(presets::reeves87().filter, &mut probe);
+        assert_eq!(answer, ask(presets::reeves87().filter.with_cull(false), &mut Counters::default()), "z = {z}");
         (probe.lookups == 0).then_some(answer)
     };
     let expected = [
@@ -337,7 +337,7 @@ fn asked<F: Filter>(filter: &F, map: &Tiled, receiver: &Receiver, key: Key, prob
 fn c_4_a_receiver_of_another_kind_is_refused() {
     let screen = lamp(16).with_kind(Kind::Screen);
     let region = receiver(&screen, 10.0, Vec2::splat(8.0), Vec2::splat(1.0));
-    fraction(presets::reeves87(), map(16, |_, _| 1.0), &region, KEY);
+    fraction(presets::reeves87().filter, map(16, |_, _| 1.0), &region, KEY);
 }
 
 #[test]

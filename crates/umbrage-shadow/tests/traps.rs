@@ -41,7 +41,7 @@ fn t_3_the_background_around_the_finite_box_is_lit_inside_a_spot_s_cone() {
     let raw = Raw::new(view, depths.collect()).unwrap();
     let boxed = Bbox::from(&raw);
     for cull in [true, false] {
-        let filter = presets::woo92().with_cull(cull);
+        let filter = presets::woo92().filter.with_cull(cull);
         for step in 0..400 {
             let at = Vec3::new(KEY.signed(step, 0) * 12.0, -10.0, KEY.signed(step, 1) * 12.0);
             let point = SurfacePoint { region: step, ..SurfacePoint::at(at, Vec3::Y) };
@@ -63,7 +63,7 @@ fn t_5_an_empty_box_does_not_light_what_lies_outside_the_cone() {
     // Nothing in the map at all: the cull would say lit, the cone says dark.
     let view = lamp(64).with_rules(Rules::SPOT).with_cone(Some(0.5)).unwrap();
     let map = Bbox::from(&Raw::new(view, vec![f32::INFINITY; 64 * 64]).unwrap());
-    let shadow = ShadowMap { filter: presets::reeves87(), map };
+    let shadow = ShadowMap { filter: presets::reeves87().filter, map };
     let at = |x: f32| shadow.fraction(&SurfacePoint::at(Vec3::new(x, -10.0, 0.0), Vec3::Y), KEY);
     assert_eq!((at(0.0), at(4.0), at(6.0), at(15.0)), (0.0, 0.0, 1.0, 1.0));
 }
@@ -138,7 +138,7 @@ fn t_10_equal_depths_are_lit_everywhere() {
         assert_eq!(ask(&exact.with_cull(cull), &map, &region(10.0), KEY), 0.0);
         assert_eq!(ask(&exact.with_cull(cull), &map, &region(10f32.next_up()), KEY), 1.0);
     }
-    let williams = presets::williams78().with_bias(Bias::ZERO);
+    let williams = presets::williams78().filter.with_bias(Bias::ZERO);
     assert_eq!(ask(&williams, &map, &region(10.0), KEY), 0.0);
     assert_eq!(ask(&williams, &map, &region(10f32.next_up()), KEY), 1.0);
 }
@@ -147,10 +147,10 @@ fn t_10_equal_depths_are_lit_everywhere() {
 fn t_17_regions_that_reach_behind_the_light_get_footprints_of_their_front() {
     let view = lamp(64);
     let map = Raw::new(view, vec![3.0; 64 * 64]).unwrap();
-    let shadow = ShadowMap { filter: presets::reeves87(), map };
+    let shadow = ShadowMap { filter: presets::reeves87().filter, map };
     // A board from below the light to far above it.
     let corners = [(-1.0, -8.0), (1.0, -8.0), (1.0, 30.0), (-1.0, 30.0)].map(|(x, y)| Vec3::new(x, y, -2.0));
-    let region = SurfacePoint { corners, ..SurfacePoint::at(Vec3::new(0.0, -5.0, -2.0), Vec3::Z) };
+    let region = SurfacePoint::at(Vec3::new(0.0, -5.0, -2.0), Vec3::Z).with_corners(corners);
     let footprint = view.receiver(&region).unwrap().footprint;
     assert!(footprint.centre.is_finite() && footprint.half.max_element() <= 16.0);
     assert!((footprint.centre - Vec2::new(32.0, 19.2)).abs().max_element() <= 16.0, "{footprint:?}");
@@ -161,7 +161,7 @@ fn t_17_regions_that_reach_behind_the_light_get_footprints_of_their_front() {
 fn t_18_what_lies_beyond_the_far_plane_is_compared_unless_the_volume_is_strict() {
     let lit_or_dark = |rules| {
         let map = Raw::new(lamp(16).with_rules(rules), vec![50.0; 256]).unwrap();
-        let shadow = ShadowMap { filter: presets::reeves87(), map };
+        let shadow = ShadowMap { filter: presets::reeves87().filter, map };
         shadow.fraction(&SurfacePoint::at(Vec3::new(0.0, -1000.0, 0.0), Vec3::Y), KEY)
     };
     assert_eq!((lit_or_dark(Rules::OPEN), lit_or_dark(Rules::SPOT), lit_or_dark(Rules::VOLUME)), (1.0, 1.0, 0.0));
@@ -178,4 +178,20 @@ fn v59_r87_26_highlights_transformed_before_and_after_filtering() {
     assert!((first - 0.500_488_3).abs() < 1e-6);
     assert!((highlight(mean) - 0.056_313_5).abs() < 1e-6);
     assert!((highlight(mean.normalize()) - 0.237_304_7).abs() < 1e-6);
+}
+
+#[test]
+fn shadows_and_maps_are_shared_between_threads() {
+    fn sent<T: Send + Sync + 'static>(_: &T) {}
+    let map = std::sync::Arc::new(Raw::new(lamp(16), vec![5.0; 256]).unwrap());
+    // One map under two filters, neither of which copies it.
+    let one = ShadowMap { filter: presets::reeves87().filter, map: std::sync::Arc::clone(&map) };
+    let two = ShadowMap { filter: presets::ordinary(Bias::ZERO).filter, map: std::sync::Arc::clone(&map) };
+    let shadows: Vec<Box<dyn Shadow>> = vec![Box::new(one), Box::new(two)];
+    sent(&shadows);
+    let below = SurfacePoint::at(Vec3::new(0.0, -10.0, 0.0), Vec3::Y);
+    let dark =
+        std::thread::spawn(move || shadows.iter().map(|shadow| shadow.fraction(&below, KEY)).collect::<Vec<_>>());
+    assert_eq!(dark.join().unwrap(), [1.0, 1.0]);
+    assert_eq!(std::sync::Arc::strong_count(&map), 1, "both went with their thread");
 }

@@ -113,7 +113,7 @@ fn w78_25_only_the_order_of_depths_matters_at_bias_zero() {
     let view = lamp(32);
     let map = raw(&view, |x, y| 5.0 + ((x * 5 + y * 13) % 17) as f32 * 0.5);
     let warped = raw(&view, |x, y| map.depth(glam::IVec2::new(x as i32, y as i32)).powi(3) * 0.01 - 7.0);
-    let filter = presets::williams78().with_bias(Bias::ZERO);
+    let filter = presets::williams78().filter.with_bias(Bias::ZERO);
     for step in 0..2000 {
         let zeta = 5.0 + KEY.unit(step, 0) * 9.0;
         let at = glam::DVec2::new(f64::from(KEY.unit(step, 1)), f64::from(KEY.unit(step, 2))) * 32.0;
@@ -129,7 +129,8 @@ fn w78_25_only_the_order_of_depths_matters_at_bias_zero() {
 #[test]
 fn w78_8_outside_the_light_s_volume_everything_is_lit() {
     let view = lamp(32).with_rules(umbrage_plane::Rules::VOLUME);
-    let shadow = ShadowMap { filter: presets::williams78().with_lookup(Lookup::Nearest), map: raw(&view, |_, _| 2.0) };
+    let shadow =
+        ShadowMap { filter: presets::williams78().filter.with_lookup(Lookup::Nearest), map: raw(&view, |_, _| 2.0) };
     let at = |x: f32, y: f32| shadow.fraction(&SurfacePoint::at(Vec3::new(x, y, 0.0), Vec3::Y), KEY);
     assert_eq!([at(0.0, 0.0), at(30.0, 0.0), at(0.0, -95.0), at(0.0, 9.5)], [1.0, 0.0, 0.0, 0.0]);
 }

@@ -76,7 +76,7 @@ fn w92_6_regions_wholly_outside_and_points_behind_are_dark_under_a_spot() {
     let view = lamp(64).with_cone(Some(0.5)).unwrap();
     let fraction = |rules, at: Vec3| {
         let map = map(&view.with_rules(rules), |_, _| f32::INFINITY);
-        ShadowMap { filter: presets::woo92(), map }.fraction(&SurfacePoint::at(at, Vec3::Y), KEY)
+        ShadowMap { filter: presets::woo92().filter, map }.fraction(&SurfacePoint::at(at, Vec3::Y), KEY)
     };
     for outside in [Vec3::new(6.0, -10.0, 6.0), Vec3::new(30.0, -10.0, 0.0), Vec3::new(0.0, 5.0, 0.0)] {
         assert_eq!(fraction(Rules::SPOT, outside), 1.0, "{outside}");
@@ -90,15 +90,15 @@ fn w92_3_w92_5_the_preset_has_no_bias_and_draws_none() {
     let view = lamp(64);
     let stored = map(&view, |_, _| 10.0);
     let region = receiver(&view, Vec2::splat(30.3), Vec2::splat(3.0));
-    let answer = |depth| ask(&presets::woo92(), &stored, &Receiver { depth, ..region }, KEY, &mut ());
+    let answer = |depth| ask(&presets::woo92().filter, &stored, &Receiver { depth, ..region }, KEY, &mut ());
     assert_eq!((answer(10.0), answer(10f32.next_up())), (0.0, 1.0));
     // Any bias can be asked for all the same.
-    let biased = presets::woo92().with_depth(Biased::constant(Bias::World(0.5)));
+    let biased = presets::woo92().filter.with_depth(Biased::constant(Bias::World(0.5)));
     let answer = |depth| ask(&biased, &stored, &Receiver { depth, ..region }, KEY, &mut ());
     assert_eq!((answer(10.5), answer(10.5f32.next_up())), (0.0, 1.0));
     // A midpoint between two surfaces lights the first and darkens the second: 9 and 11 around 10.
-    assert_eq!(ask(&presets::woo92(), &stored, &Receiver { depth: 9.0, ..region }, KEY, &mut ()), 0.0);
-    assert_eq!(ask(&presets::woo92(), &stored, &Receiver { depth: 11.0, ..region }, KEY, &mut ()), 1.0);
+    assert_eq!(ask(&presets::woo92().filter, &stored, &Receiver { depth: 9.0, ..region }, KEY, &mut ()), 0.0);
+    assert_eq!(ask(&presets::woo92().filter, &stored, &Receiver { depth: 11.0, ..region }, KEY, &mut ()), 1.0);
 }
 
 /// The archived listing over a map, its random numbers all in the middle of their range.
@@ -229,7 +229,7 @@ fn w92_7_as_a_filter_it_is_pcf_without_bias_bit_for_bit() {
 
 #[test]
 fn w92_7_the_printed_preset_and_its_defaults() {
-    let woo = presets::woo92();
+    let woo = presets::woo92().filter;
     assert_eq!(woo.depth, Biased::constant(Bias::ZERO));
     let integer = IntegerFirst::default();
     assert_eq!((integer.pattern, integer.res_factor, integer.min_size), (woo.pattern, woo.res_factor, woo.min_size));

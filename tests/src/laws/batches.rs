@@ -1,7 +1,7 @@
 //! Laws of batches, threads and counters.
 
 use super::places::lamp;
-use super::{Found, KEY, Subject, check, same};
+use super::subject::{Found, KEY, Subject, check, same};
 use glam::Vec2;
 use rayon::prelude::*;
 use umbrage_depth::{Map, Raw, Storage};

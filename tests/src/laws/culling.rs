@@ -1,7 +1,7 @@
 //! The law of ranges: what a storage's ranges and a compared depth's bounds settle is what taps would have said.
 
 use super::places::lamp;
-use super::{Found, KEY, same};
+use super::subject::{Found, KEY, same};
 use glam::{Vec2, Vec3};
 use umbrage_depth::{DepthMap, Raw};
 use umbrage_plane::{Footprint, Receiver, Rules, SurfacePoint};

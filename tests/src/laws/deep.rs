@@ -1,7 +1,7 @@
 //! Laws of deep maps.
 
 use super::places::{flat, lamp, point};
-use super::{Found, KEY, Subject, check, same};
+use super::subject::{Found, KEY, Subject, check, same};
 use glam::{Vec2, Vec3};
 use umbrage_depth::{DeepMap, Map, Raw, Step};
 use umbrage_plane::{Rules, SurfacePoint};

@@ -1,6 +1,6 @@
 //! Every filter of the crates, and those of strangers.
 
-use super::Subject;
+use super::subject::Subject;
 use crate::outside::{Pcss, Variance};
 use umbrage_plane::Bias;
 use umbrage_sample::{
@@ -8,8 +8,8 @@ use umbrage_sample::{
 };
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
 use umbrage_shadow::{
-    AnyDepth, Biased, Conditional, Cone, Extent, IntegerFirst, OnPlane, Opacity, Ordinary, Pcf, Radius, Soft, Softness,
-    VirtualWhen, Williams,
+    AnyDepth, BiasCone, Biased, Conditional, FilteredDepth, IntegerFirst, MapRadius, OnPlane, Opacity, Pcf, Radius,
+    Soft, Softness, VirtualWhen, Williams,
 };
 
 /// Each filter with the parameters that change what it does. Patterns and depths are chosen when the program runs, so that this costs
@@ -20,9 +20,9 @@ pub fn every_filter() -> Vec<Subject> {
     };
     let plane = || OnPlane::biased(Bias::Texels(0.5)).into();
     let wang = |pattern: AnyPattern| Conditional::default().with_pattern(pattern);
-    let burley = || Soft::default().with_depth(AnyDepth::from(Cone::default()));
+    let burley = || Soft::default().with_depth(AnyDepth::from(BiasCone::default()));
     let light = |radius| Softness::Light { radius, nearest: 2.0 };
-    let between = Softness::Between { min: Extent::Share(0.01), max: Extent::World(0.9) };
+    let between = Softness::Between { min: MapRadius::Fraction(0.01), max: MapRadius::World(0.9) };
     let bilinear = |guard| Williams::default().with_lookup(Lookup::Bilinear(guard));
     vec![
         Subject::new("pcf", Pcf::default()),
@@ -32,17 +32,20 @@ pub fn every_filter() -> Vec<Subject> {
         ),
         Subject::new("every texel on the plane", reeves(EveryTexel.into(), plane())),
         Subject::new("one tap", reeves(Centre.into(), Biased::constant(Bias::Texels(1.0)).into())),
-        Subject::new("a tent in a cone", reeves(Tent.into(), Cone::default().into())),
+        Subject::new("a tent in a cone", reeves(Tent.into(), BiasCone::default().into())),
         Subject::new("uniform taps", reeves(Uniform::default().into(), Biased::default().into())),
         Subject::new("normal taps", reeves(Gaussian::default().into(), plane())),
         Subject::new("inside the quadrilateral", reeves(InsideQuadReject::default().into(), Biased::default().into())),
         Subject::new("warped onto it", reeves(InsideQuadWarp::default().into(), plane())),
         Subject::new(
             "a disc in a nominal cone",
-            reeves(Disc::default().into(), Cone::default().with_radius(Radius::Nominal).into()),
+            reeves(Disc::default().into(), BiasCone::default().with_radius(Radius::Nominal).into()),
         ),
         Subject::new("whole units first", IntegerFirst::default()),
-        Subject::new("depths filtered first", Ordinary::default().with_bias(Bias::World(0.3)).with_res_factor(2.0)),
+        Subject::new(
+            "depths filtered first",
+            FilteredDepth::default().with_bias(Bias::World(0.3)).with_res_factor(2.0),
+        ),
         Subject::new("williams", Williams::default().with_dither(Dither::HALF_TEXEL)),
         Subject::new("williams, interpolated", bilinear(Guard::default())),
         Subject::new("williams, faithful", bilinear(Guard::Faithful).with_bias(Bias::Steps(1.0))),
@@ -58,7 +61,10 @@ pub fn every_filter() -> Vec<Subject> {
         Subject::new("burley, by the light's size", burley().with_softness(light(0.5))),
         Subject::new("burley, on the plane", burley().with_depth(AnyDepth::from(OnPlane::default().with_slack(1.0)))),
         Subject::new("a stranger's variance", Variance::default()),
-        Subject::new("a stranger's soft shadow", Pcss { taps: Disc::default(), depth: Cone::default(), light: 4.0 }),
+        Subject::new(
+            "a stranger's soft shadow",
+            Pcss { taps: Disc::default(), depth: BiasCone::default(), light: 4.0 },
+        ),
     ]
 }
 

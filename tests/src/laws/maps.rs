@@ -1,6 +1,6 @@
 //! Laws over maps of a real scene and receivers of all kinds.
 
-use super::{Found, KEY, Subject, check, same, size};
+use super::subject::{Found, KEY, Subject, check, same, size};
 use glam::{DVec3, UVec2, Vec2};
 use std::sync::{Arc, LazyLock};
 use umbrage_bake::bake;

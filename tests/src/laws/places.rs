@@ -1,6 +1,6 @@
 //! Laws of places: outside the map, outside the cone, nothing stored, everything stored.
 
-use super::{Found, KEY, Subject, check};
+use super::subject::{Found, KEY, Subject, check};
 use glam::{DVec3, UVec2, Vec2};
 use umbrage_depth::{Map, Raw};
 use umbrage_plane::{Rules, SurfacePoint, View};
@@ -20,7 +20,7 @@ pub fn point(view: &View, texel: Vec2, zeta: f64, half: f32) -> SurfacePoint {
     let corner = |x: f32, y: f32| world(texel + Vec2::new(x, y) * half);
     let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
     let toward = (-view.ahead()).as_vec3();
-    SurfacePoint { corners, ..SurfacePoint::at(world(texel), toward) }
+    SurfacePoint::at(world(texel), toward).with_corners(corners)
 }
 
 /// A map that stores one depth everywhere.

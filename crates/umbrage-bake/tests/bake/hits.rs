@@ -3,7 +3,7 @@
 use crate::pass1::{triangles, views};
 use glam::IVec2;
 use umbrage_bake::bake;
-use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Hit, Midpoint, Same, Second};
+use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Hit, Midpoint, SameSurface, Second};
 use umbrage_plane::{Facing, TexelRect, View};
 use umbrage_raster::{Bins, Cull, each_fragment};
 
@@ -43,5 +43,5 @@ fn hits_at_the_fragments_distances_store_the_baked_bits_under_every_rule() {
     law("second", &Second);
     law("back face", &BackFace);
     law("midpoint", &Midpoint::default());
-    law("midpoint by object", &Midpoint { same: Same::Object, ..Midpoint::default() });
+    law("midpoint by object", &Midpoint::default().with_same(SameSurface::Object));
 }

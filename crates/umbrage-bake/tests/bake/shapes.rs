@@ -4,7 +4,7 @@ use glam::Vec3;
 use umbrage_raster::Triangle;
 
 fn triangle(corners: [Vec3; 3], object: u32, sheet: bool) -> Triangle {
-    Triangle { corners, object, sheet }
+    Triangle::new(corners, object, sheet)
 }
 
 /// The two triangles of a four-sided piece, counter-clockwise from its outside.

@@ -10,7 +10,7 @@ use glam::{DVec3, IVec2, UVec2, Vec3};
 use rayon::prelude::*;
 use std::sync::Arc;
 use umbrage_bake::Deep;
-use umbrage_depth::{DeepMap, DepthMap, Map, Step, compress};
+use umbrage_depth::{DeepMap, DepthMap, Map, Step, compress_steps};
 use umbrage_oracle::{Geometry, Mean, RayCast, metrics};
 use umbrage_plane::{TexelRect, View};
 use umbrage_recipe::Recipe;
@@ -176,7 +176,7 @@ fn stored(cx: &Context, case: &Case, map: &DeepMap, made: &mut Made) -> anyhow::
     let sizes = EPSILONS.iter().filter(|epsilon| !cx.quick || **epsilon >= 0.01).map(|&epsilon| {
         let one = |texel: &IVec2| {
             let steps = whole.steps(*texel);
-            let kept = compress(steps, epsilon);
+            let kept = compress_steps(steps, epsilon);
             (apart(steps, &kept) / f64::from(epsilon), kept.len())
         };
         let (error, kept) = texels.par_iter().map(one).reduce(|| (0.0, 0), |a, b| (a.0.max(b.0), a.1 + b.1));

@@ -60,7 +60,7 @@ fn predicted(set: &Set, x: f64) -> f64 {
     let (edge, occluder) = edge(set, x, 1.0);
     let view = &set.scene.lights[0].view;
     predict::DISC_EDGE_10_90
-        * predict::penumbra_width(2.0 * LIGHT, axial(view, occluder), axial(view, edge.middle.as_dvec3()))
+        * predict::expected_penumbra_width(2.0 * LIGHT, axial(view, occluder), axial(view, edge.middle.as_dvec3()))
 }
 
 /// The recipes that are compared: names and texts.

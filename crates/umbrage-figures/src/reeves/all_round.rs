@@ -51,7 +51,7 @@ fn ring(pixels: u32) -> anyhow::Result<Scene> {
     let mut lamp = Light::point("lamp", LAMP, LAMP - DVec3::Y, 90.0, NEAR, FAR, UVec2::splat(64))?;
     lamp.view = any.with_rules(Rules::OPEN);
     let (ambient, background) = (Vec3::splat(0.12), Vec3::splat(0.02));
-    Ok(Scene { name: "ring".into(), objects, lights: vec![lamp], ambient, background, camera })
+    Ok(Scene { name: "ring".into(), origin: DVec3::ZERO, objects, lights: vec![lamp], ambient, background, camera })
 }
 
 fn maps(scene: &Scene, views: &[View]) -> Vec<Arc<Tiled>> {
@@ -61,7 +61,7 @@ fn maps(scene: &Scene, views: &[View]) -> Vec<Arc<Tiled>> {
 
 /// Pairs of neighbouring floor pixels that two faces of the cube see, and all other pairs.
 fn pairs(seen: &Picture) -> [Vec<(usize, usize)>; 2] {
-    let face = |i: usize| cube_face(seen.position[i].as_dvec3() - LAMP).0;
+    let face = |i: usize| cube_face(seen.position[i] - LAMP).0;
     let width = seen.size.x as usize;
     let floor = of(seen, |id| id == 0);
     let beside = |i: usize| [i + 1, i + width].into_iter().filter(|&j| j < floor.len() && floor[j]);
@@ -100,7 +100,7 @@ fn omni(cx: &Context) -> anyhow::Result<Made> {
     // Belts end where sectors see no more: beyond 1.6 of elevation, right under the lamp.
     let belt: Vec<bool> = (0..floor.len())
         .map(|i| {
-            let at = truth.position[i].as_dvec3() - LAMP;
+            let at = truth.position[i] - LAMP;
             floor[i] && -at.y < 1.5 * at.x.hypot(at.z)
         })
         .collect();

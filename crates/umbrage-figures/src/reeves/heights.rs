@@ -71,8 +71,9 @@ fn widths(cx: &Context) -> anyhow::Result<Made> {
         shadow_and_error(&mut made, (name, caption), ("recipe", recipe), &picture, &truth);
     }
     made.panels.push(truth_panel(&truth).with("light's radius", LIGHT));
-    let exact = BOARDS
-        .map(|board| predict::DISC_EDGE_10_90 * predict::penumbra_width(2.0 * LIGHT, floor - board.1, floor) / texel);
+    let exact = BOARDS.map(|board| {
+        predict::DISC_EDGE_10_90 * predict::expected_penumbra_width(2.0 * LIGHT, floor - board.1, floor) / texel
+    });
     let [pcf, burley, light] = [0, 1, 2].map(|i: usize| ramps[i]);
     let ratio = |ramp: [f64; 2]| ramp[1] / ramp[0];
     made.measures = vec![

@@ -112,7 +112,7 @@ fn two_orders(cx: &Context) -> anyhow::Result<Made> {
         .map(|(x, y)| view.world_at((centre + Vec2::new(x, y)).as_dvec2(), -1.0 / f64::from(z)).as_vec3());
     let position = view.world_at(centre.as_dvec2(), -1.0 / f64::from(z)).as_vec3();
     let normal = view.toward_eye(position.as_dvec3()).as_vec3();
-    let region = SurfacePoint { corners, ..SurfacePoint::at(position, normal) };
+    let region = SurfacePoint::at(position, normal).with_corners(corners);
     let ask = |recipe: &str| -> anyhow::Result<f64> {
         let recipe: umbrage_recipe::Recipe = recipe.parse()?;
         Ok(f64::from(recipe.bind(&map, cx.storage)?.fraction(&region, Key::new(cx.seed, 0, 0))))
@@ -287,7 +287,7 @@ pub const F5: Figure = Figure {
 
 fn example(cx: &Context) -> anyhow::Result<Made> {
     let set = Set::new(gallery::sphere_plane(), cx.pick(1024, 256), 1024);
-    let picture = set.shoot(cx, presets::reeves87(), &Frame::default());
+    let picture = set.shoot(cx, presets::reeves87().filter, &Frame::default());
     let truth = set.truth(cx);
     let centroid = |picture: &Picture| metrics::centroid(shadow_grid(picture), &of(picture, |id| id == PLANE));
     let shift = centroid(&picture).zip(centroid(&truth)).map(|(ours, exact)| ours.distance(exact));
@@ -319,9 +319,9 @@ pub const F6: Figure = Figure {
 
 fn component(cx: &Context) -> anyhow::Result<Made> {
     let set = Set::new(gallery::sphere_plane(), cx.pick(512, 192), cx.pick(2048, 768));
-    let ordinary = set.shoot(cx, presets::ordinary(Bias::World(0.35)), &Frame::CENTRES);
-    let filtered = set.shoot(cx, presets::reeves87().with_res_factor(1.0), &Frame::CENTRES);
-    let softened = set.shoot(cx, presets::reeves87(), &Frame::CENTRES);
+    let ordinary = set.shoot(cx, presets::ordinary(Bias::World(0.35)).filter, &Frame::CENTRES);
+    let filtered = set.shoot(cx, presets::reeves87().filter.with_res_factor(1.0), &Frame::CENTRES);
+    let softened = set.shoot(cx, presets::reeves87().filter, &Frame::CENTRES);
     let truth = set.truth(cx);
     let edge = metrics::both(&metrics::edge_mask(shadow_grid(&truth), 4), &of(&truth, |id| id == PLANE));
     let error = |picture: &Picture| value(metrics::rms(&picture.shadow[0], &truth.shadow[0], &edge));

@@ -160,13 +160,13 @@ fn places_and_ranges(cx: &Context, measures: &mut Vec<Measure>) -> anyhow::Resul
     let column_0 = map(|x| if x == 0 { 1.0 } else { f32::INFINITY })?;
     let point = Listing { num_samples: 1, res_factor: 1.0, ..fig4 };
     let left = DVec2::new(-0.4, 128.0);
-    let ordinary = ShadowMap { filter: presets::ordinary(Bias::ZERO), map: column_0.clone() };
+    let ordinary = ShadowMap { filter: presets::ordinary(Bias::ZERO).filter, map: column_0.clone() };
     let beside = receiver(column_0.view(), 10.0, left.as_vec2(), 0.0)?;
     let empty = map(|_| f32::INFINITY)?;
     let middle = DVec2::splat(128.0);
     let behind = column_0.view().light().truncate() * 1.1;
     let behind = SurfacePoint::at(behind.as_vec3(), glam::Vec3::Z);
-    let near = ShadowMap { filter: presets::reeves87(), map: map(|_| 1.0)? };
+    let near = ShadowMap { filter: presets::reeves87().filter, map: map(|_| 1.0)? };
     measures.extend([
         Measure::exactly(
             "sample at −.4, as printed: column 0 is read (V10)",
@@ -195,14 +195,14 @@ fn places_and_ranges(cx: &Context, measures: &mut Vec<Measure>) -> anyhow::Resul
         Measure::exactly("empty map, as printed (V14)", printed(cx, &fig4, &empty, 1e9, middle, 1.0, 1), "share", 0.0),
         Measure::exactly(
             "the same, corrected (V14)",
-            corrected(cx, presets::reeves87(), &empty, 1e9, middle, 1.0, 1)?,
+            corrected(cx, presets::reeves87().filter, &empty, 1e9, middle, 1.0, 1)?,
             "share",
             0.0,
         ),
     ]);
     for (stored, low, high) in [(9.65, 0.49, 0.51), (9.7, 0.0, 1e-3), (9.59, 1.0, 1.0)] {
         let flat = map(|_| stored)?;
-        let share = corrected(cx, presets::reeves87(), &flat, 10.0, middle, 1.0, cx.pick(4000, 2000))?;
+        let share = corrected(cx, presets::reeves87().filter, &flat, 10.0, middle, 1.0, cx.pick(4000, 2000))?;
         measures.push(Measure::within(
             &format!("z = 10 over {stored}, bias (.3, .4) (V15)"),
             share,

@@ -117,7 +117,7 @@ fn res_factor(cx: &Context) -> anyhow::Result<Made> {
     let mut made = Made::default();
     let (mut widths, mut shifts) = (Vec::new(), 0.0f64);
     // What the map's own texels show: the ordinary z-buffer.
-    let ordinary = set.shoot(cx, presets::ordinary(Bias::World(1.4)), &Frame::CENTRES);
+    let ordinary = set.shoot(cx, presets::ordinary(Bias::World(1.4)).filter, &Frame::CENTRES);
     let edge = metrics::both(&metrics::edge_mask(shadow_grid(&truth), 4), &of(&truth, |_| true));
     let mut unlike_map = Vec::new();
     for factor in [0.25f32, 1.0, 2.0, 3.0, 4.0, 8.0] {
@@ -184,7 +184,7 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
     let mut made = Made::default();
     let (mut plane, mut sphere, mut edges) = (Vec::new(), Vec::new(), Vec::new());
     for (index, (low, high)) in [(0.0, 0.0), (0.2, 0.3), (0.3, 0.4)].into_iter().enumerate() {
-        let filter = presets::reeves87().with_depth(Biased::world(low, high));
+        let filter = presets::reeves87().filter.with_depth(Biased::world(low, high));
         let picture = set.shoot(cx, filter, &Frame::CENTRES);
         let (on_plane, on_sphere) = false_shadow(&picture, &truth, 6);
         plane.push(on_plane);
@@ -250,7 +250,7 @@ fn terminator(cx: &Context) -> anyhow::Result<(f64, f64, u32)> {
     scene.lights[0].view =
         View::perspective(eye, DVec3::new(0.0, 0.0, 25.0), DVec3::Z, fov, light.near(), light.far(), light.size())?;
     let set = Set::new(scene, 512, cx.pick(4096, 2048));
-    let picture = set.shoot(cx, presets::ordinary(Bias::World(BIAS)), &Frame { axis: 4, ..Frame::CENTRES });
+    let picture = set.shoot(cx, presets::ordinary(Bias::World(BIAS)).filter, &Frame { axis: 4, ..Frame::CENTRES });
     let mut bins = vec![(0.0f64, 0u32); 60];
     for i in of(&picture, |id| id == SPHERE).iter().enumerate().filter(|(_, on)| **on).map(|(i, _)| i) {
         let past = (-f64::from(picture.facing[0][i])).asin().to_degrees();
@@ -284,7 +284,7 @@ fn map_size(cx: &Context) -> anyhow::Result<Made> {
     for texels in [256, 512, 1024] {
         let set = Set::new(gallery::sphere_plane(), pixels, texels);
         let (truth, points) = (set.truth(cx), set.truth_points(cx, &Frame::CENTRES));
-        let picture = set.shoot(cx, presets::reeves87(), &Frame::CENTRES);
+        let picture = set.shoot(cx, presets::reeves87().filter, &Frame::CENTRES);
         let edge = metrics::both(&metrics::edge_mask(shadow_grid(&truth), 6), &of(&truth, |id| id == PLANE));
         errors.push(value(metrics::rms(&picture.shadow[0], &truth.shadow[0], &edge)));
         acne.push(false_shadow(&picture, &points, 8).0);
@@ -321,7 +321,7 @@ fn float(cx: &Context) -> anyhow::Result<Made> {
     let exact = set.truth(cx);
     let whole = set.quantised(16);
     let shots = |bias: Bias| {
-        let shoot = |map: &Arc<Tiled>| set.shoot_map(cx, presets::ordinary(bias), map, &Frame::CENTRES);
+        let shoot = |map: &Arc<Tiled>| set.shoot_map(cx, presets::ordinary(bias).filter, map, &Frame::CENTRES);
         (shoot(&whole), shoot(&set.map))
     };
     let edge = metrics::both(&metrics::edge_mask(shadow_grid(&exact), 4), &of(&exact, |id| id == PLANE));
@@ -385,8 +385,8 @@ fn pass1(cx: &Context) -> anyhow::Result<Made> {
     {
         let set = Set::sampled(gallery::sphere_plane(), pixels, 256, sampling);
         let (truth, points) = (set.truth(cx), set.truth_points(cx, &Frame::CENTRES));
-        let picture = set.shoot(cx, presets::reeves87(), &Frame::CENTRES);
-        let limit = set.shoot(cx, presets::reeves87().with_pattern(jittered(1024)), &Frame::CENTRES);
+        let picture = set.shoot(cx, presets::reeves87().filter, &Frame::CENTRES);
+        let limit = set.shoot(cx, presets::reeves87().filter.with_pattern(jittered(1024)), &Frame::CENTRES);
         let edge = metrics::both(&metrics::edge_mask(shadow_grid(&truth), 8), &of(&truth, |id| id == PLANE));
         let noise = metrics::rms(&limit.shadow[0], &truth.shadow[0], &edge);
         let contour = metrics::contour_deviation(shadow_grid(&limit), shadow_grid(&truth), 6.0);

@@ -98,7 +98,15 @@ impl Slice {
         let mut lamp = Light::point("light", DVec3::Y, DVec3::ZERO, 60.0, 1.0, 2.0, UVec2::ONE)?;
         lamp.view = *light;
         let (ambient, background) = (Vec3::splat(0.2), Vec3::ZERO);
-        let scene = Scene { name: name.into(), objects, lights: vec![lamp], ambient, background, camera: *camera };
+        let scene = Scene {
+            name: name.into(),
+            origin: DVec3::ZERO,
+            objects,
+            lights: vec![lamp],
+            ambient,
+            background,
+            camera: *camera,
+        };
         Ok(Self { scene, outlines })
     }
 

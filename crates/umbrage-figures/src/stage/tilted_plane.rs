@@ -12,11 +12,7 @@ use umbrage_raster::{Cull, Triangle};
 pub fn tilted(normal: DVec3) -> anyhow::Result<(View, Arc<Tiled>)> {
     let view = View::orthographic(DVec3::Z * 200.0, DVec3::ZERO, DVec3::Y, 8.0, 1.0, 400.0, UVec2::splat(256))?;
     let corners = [[-20.0, -20.0], [20.0, -20.0], [20.0, 20.0], [-20.0, 20.0]].map(|[x, y]| on_plane(normal, x, y));
-    let sheet = |a: usize, b: usize, c: usize| Triangle {
-        corners: [corners[a], corners[b], corners[c]],
-        object: 0,
-        sheet: true,
-    };
+    let sheet = |a: usize, b: usize, c: usize| Triangle::new([corners[a], corners[b], corners[c]], 0, true);
     Ok((view, bake(&view, [sheet(0, 1, 2), sheet(0, 2, 3)], &First, Cull::None).map))
 }
 

@@ -27,11 +27,7 @@ fn tilted(normal: DVec3) -> anyhow::Result<(View, Arc<Tiled>)> {
     let view = View::orthographic(DVec3::Z * 200.0, DVec3::ZERO, DVec3::Y, 8.0, 1.0, 400.0, UVec2::splat(256))?;
     let on_plane = |x: f64, y: f64| DVec3::new(x, y, -(normal.x * x + normal.y * y) / normal.z).as_vec3();
     let corners = [on_plane(-20.0, -20.0), on_plane(20.0, -20.0), on_plane(20.0, 20.0), on_plane(-20.0, 20.0)];
-    let sheet = |a: usize, b: usize, c: usize| Triangle {
-        corners: [corners[a], corners[b], corners[c]],
-        object: 0,
-        sheet: true,
-    };
+    let sheet = |a: usize, b: usize, c: usize| Triangle::new([corners[a], corners[b], corners[c]], 0, true);
     Ok((view, bake(&view, [sheet(0, 1, 2), sheet(0, 2, 3)], &First, Cull::None).map))
 }
 
@@ -54,7 +50,7 @@ fn acne(cx: &Context) -> anyhow::Result<Made> {
         let (mut measured, mut expected) = (Vec::new(), Vec::new());
         for index in 0..=16 {
             let steps = f64::from(index) * 0.05;
-            let shadow = bind(presets::ordinary(Bias::World((steps * step) as f32)), &map, cx.storage);
+            let shadow = bind(presets::ordinary(Bias::World((steps * step) as f32)).filter, &map, cx.storage);
             let key = Key::new(cx.seed, 0, index);
             let receivers: Vec<SurfacePoint> = (0..points)
                 .map(|i| {

@@ -110,7 +110,7 @@ fn table(cx: &Context) -> anyhow::Result<Made> {
             .with_res_factor(3.0)
             .with_min_size(0.0)
     };
-    let ordinary = set.shoot(cx, presets::ordinary(Bias::World(0.35)), &frame);
+    let ordinary = set.shoot(cx, presets::ordinary(Bias::World(0.35)).filter, &frame);
     let methods = [
         ("ordinary z-buffer, bias 0.35", (ordinary.clone(), ordinary)),
         ("percentage closer, bias 0", biased(0.0, 0.0)),

@@ -156,7 +156,7 @@ fn gap(cx: &Context, close: &Set, shadow: &dyn Shadow) -> f64 {
     let point = SurfacePoint::at(foot.as_vec3(), Vec3::Y);
     let along = Vec3::new(away.x as f32, 0.0, away.z as f32);
     // A little off the leg's own face.
-    let beside = SurfacePoint::at(point.position + along.normalize() * 0.05, Vec3::Y);
+    let beside = SurfacePoint::at(point.position + (along.normalize() * 0.05).as_dvec3(), Vec3::Y);
     f64::from(gap_on_surface(shadow, &beside, along, 0.25, FAR, Key::new(cx.seed, 0, 0)).unwrap_or(FAR))
 }
 

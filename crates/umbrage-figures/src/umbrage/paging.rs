@@ -66,7 +66,7 @@ fn faults(path: &std::path::Path, pages: usize, order: &[glam::IVec2]) -> anyhow
 fn orders(seen: &Picture, view: &View, key: Key) -> [Vec<glam::IVec2>; 3] {
     let width = seen.size.x as usize;
     let texel = |i: usize| {
-        let eye = view.world_to_eye().transform_point3(seen.position[i].as_dvec3());
+        let eye = view.world_to_eye().transform_point3(seen.position[i]);
         view.eye_to_texel(eye).floor().as_ivec2()
     };
     let lines: Vec<usize> = (0..seen.depth.len()).filter(|&i| seen.depth[i].is_finite()).collect();
@@ -81,7 +81,7 @@ fn paging(cx: &Context) -> anyhow::Result<Made> {
     let (pixels, texels) = (cx.pick(512, 192), cx.pick(16_384, 2048));
     let scene = scene(pixels)?;
     let (file, map) = written(&scene, &scene.lights[0].view.with_size(UVec2::splat(texels))?)?;
-    let filter = presets::reeves87().with_cull(false);
+    let filter = presets::reeves87().filter.with_cull(false);
     let frame = Frame { seed: cx.seed, ..Frame::CENTRES };
     let draw = |shadow: &dyn Shadow| picture(&scene, &[shadow], &frame);
     let whole = draw(&ShadowMap { filter, map: map.clone() });

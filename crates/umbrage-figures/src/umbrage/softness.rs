@@ -70,7 +70,7 @@ fn softness(cx: &Context) -> anyhow::Result<Made> {
     let set = Set::new(gallery::single_occluder(), cx.pick(320, 128), 1024);
     let view = set.scene.lights[0].view;
     let (floor, occluder) = (axial(&view, DVec3::ZERO), axial(&view, DVec3::Y * HEIGHT));
-    let whole = |radius: f64| predict::penumbra_width(2.0 * radius, occluder, floor);
+    let whole = |radius: f64| predict::expected_penumbra_width(2.0 * radius, occluder, floor);
     let max = burley_max(&view, SET, occluder);
     let constant = whole(SET) / 2.0 / view.texel_world(floor).x;
     let recipes: [(&str, &dyn Fn(f64) -> String); 4] = [

@@ -5,8 +5,8 @@ use crate::figure::{Context, Figure, Paper};
 use crate::stage::slices::{self, Slice, rectangle, stored};
 use glam::{DVec2, DVec3, Vec3};
 use std::sync::Arc;
-use umbrage_depth::{DepthMap, First, Tiled};
-use umbrage_oracle::predict::{self, Stored};
+use umbrage_depth::{DepthMap, First, Stored, Tiled};
+use umbrage_oracle::predict;
 use umbrage_oracle::{Geometry, RayCast};
 use umbrage_plane::{Bias, SurfacePoint};
 use umbrage_recipe::bind;
@@ -47,7 +47,7 @@ fn floor(from: f64, to: f64, count: u32) -> Vec<SurfacePoint> {
 
 /// The share in false shadow of the floor before a leg, and the lit gap behind it in world units, by one map.
 fn fault(cx: &Context, map: &Arc<Tiled>, bias: f64) -> (f64, f64) {
-    let shadow = bind(presets::ordinary(Bias::World(bias as f32)), map, cx.storage);
+    let shadow = bind(presets::ordinary(Bias::World(bias as f32)).filter, map, cx.storage);
     let ask = |points: &[SurfacePoint]| {
         let mut shares = vec![0.0; points.len()];
         shadow.fractions(points, Key::new(cx.seed, 0, 0), &mut shares);
@@ -102,7 +102,7 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
             needed - 0.25,
             needed + 0.25,
         ));
-        let wanted = predict::contact_gap(least.0, THICK, elevation, Stored::First);
+        let wanted = predict::expected_contact_gap(least.0, THICK, elevation, Stored::First);
         measures.push(Measure::within(
             &format!("{name}: gap under that bias (D-10: {wanted:.2})"),
             least.1.1,
@@ -126,7 +126,8 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         ]);
     }
     let predicted = (0..=48).map(|i| f64::from(i) * 0.25);
-    let predicted = predicted.map(|bias| (bias, predict::contact_gap(bias, THICK, elevation, Stored::First))).collect();
+    let predicted =
+        predicted.map(|bias| (bias, predict::expected_contact_gap(bias, THICK, elevation, Stored::First))).collect();
     let plot = |title, y| Plot::new(title, Axis::linear("bias, world units"), Axis::linear(y));
     let acne = acne.into_iter().fold(plot("False shadow on the floor", "share in false shadow"), Plot::add);
     let gaps = gaps.into_iter().fold(
@@ -155,7 +156,7 @@ fn detached(cx: &Context) -> anyhow::Result<String> {
     let map = slice.bake(&First);
     let geometry = Geometry::new(&slice.scene, &slice.scene.camera);
     let rays = slice.seen(cx, &RayCast::new(&geometry, slice.light()));
-    let by_map = slice.seen(cx, &*bind(presets::ordinary(Bias::World(15.0)), &map, cx.storage));
+    let by_map = slice.seen(cx, &*bind(presets::ordinary(Bias::World(15.0)).filter, &map, cx.storage));
     let floor = |points: Vec<DVec2>| points.into_iter().filter(|at| at.y.abs() < 0.01).collect::<Vec<_>>();
     let below = |points: Vec<DVec2>| floor(points).into_iter().map(|at| at - DVec2::Y * 1.6).collect::<Vec<_>>();
     let kept: Vec<DVec2> = stored(&map).into_iter().filter(|at| at.is_finite()).collect();

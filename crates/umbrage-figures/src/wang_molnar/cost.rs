@@ -20,7 +20,7 @@ fn virtual_share(cx: &Context, set: &Set, seen: &Picture, dark_backs: bool) -> a
     let map = light_map(&SECOND.parse()?, &set.scene, &set.scene.lights[0].view);
     let points = points_of(seen);
     let mut counters = Counters::default();
-    let shadow = ShadowMap { filter: presets::wang_molnar94().with_dark_backs(dark_backs), map };
+    let shadow = ShadowMap { filter: presets::wang_molnar94().filter.with_dark_backs(dark_backs), map };
     shadow.fractions_probed(&points, Key::new(cx.seed, 0, 0), &mut vec![0.0; points.len()], &mut counters);
     Ok(counters.virtual_sampled as f64 / points.len() as f64)
 }

@@ -35,7 +35,7 @@ pub const F1: Figure = Figure {
 /// Places of the camera's samples and whether each is dark.
 fn samples(picture: &Picture) -> impl Iterator<Item = (DVec2, bool)> + '_ {
     let seen = (0..picture.object.len()).filter(|&i| picture.object[i] != NOTHING);
-    seen.map(|i| (picture.position[i].as_dvec3().truncate(), picture.shadow[0][i] >= 0.5))
+    seen.map(|i| (picture.position[i].truncate(), picture.shadow[0][i] >= 0.5))
 }
 
 /// Those samples that are dark, or those that are not.
@@ -54,11 +54,11 @@ fn passes(cx: &Context) -> anyhow::Result<Made> {
     let map = slice.bake(&First);
     let geometry = Geometry::new(&slice.scene, &slice.scene.camera);
     let truth = slice.seen(cx, &RayCast::new(&geometry, slice.light()));
-    let by_map = slice.seen(cx, &*bind(presets::ordinary(Bias::Steps(0.75)), &map, cx.storage));
+    let by_map = slice.seen(cx, &*bind(presets::ordinary(Bias::Steps(0.75)).filter, &map, cx.storage));
     // The same with a map of many more columns.
     let mut fine = Slice { scene: slice.scene.clone(), outlines: slice.outlines.clone() };
     fine.scene.lights[0].view = slices::lamp(light.into(), [2.0, 4.0], 62.0, 640)?;
-    let by_fine = fine.seen(cx, &*bind(presets::ordinary(Bias::Steps(0.75)), fine.bake(&First), cx.storage));
+    let by_fine = fine.seen(cx, &*bind(presets::ordinary(Bias::Steps(0.75)).filter, fine.bake(&First), cx.storage));
     let unlike = |picture: &Picture| {
         let both = samples(picture).zip(samples(&truth));
         both.filter(|(ours, exact)| ours.1 != exact.1).map(|pair| pair.0.0).collect::<Vec<DVec2>>()
@@ -130,7 +130,7 @@ pub fn slope(cx: &Context, title: &str, steps: f32) -> anyhow::Result<(Diagram, 
     let light = slices::sun(DVec2::Y, DVec2::ZERO, 9.0, 8)?;
     let slice = Slice::new("slope", vec![wedge], &light, &slices::eye([-15.0, 17.0], [0.0, 0.0], 58.0, 51)?)?;
     let map = slice.bake(&First);
-    let picture = slice.seen(cx, &*bind(presets::ordinary(Bias::Steps(steps)), &map, cx.storage));
+    let picture = slice.seen(cx, &*bind(presets::ordinary(Bias::Steps(steps)).filter, &map, cx.storage));
     let inside = |points: Vec<DVec2>| points.into_iter().filter(|at| at.x.abs() < 9.0).collect::<Vec<_>>();
     let (lit, dark) = (inside(those(&picture, false)), inside(those(&picture, true)));
     let kept = stored(&map);
@@ -153,7 +153,7 @@ pub fn slope(cx: &Context, title: &str, steps: f32) -> anyhow::Result<(Diagram, 
 
 /// Share in false shadow of a plane whose depth changes along one axis only, bias in depth steps.
 fn false_share(cx: &Context, map: &Arc<Tiled>, normal: DVec3, step: f64, steps: f64, points: u32) -> f64 {
-    let shadow = bind(presets::ordinary(Bias::World((steps * step) as f32)), map, cx.storage);
+    let shadow = bind(presets::ordinary(Bias::World((steps * step) as f32)).filter, map, cx.storage);
     let key = Key::new(cx.seed, 0, 0);
     let place = |i, axis| f64::from(key.signed(i, axis)) * 7.0;
     let receivers: Vec<SurfacePoint> =

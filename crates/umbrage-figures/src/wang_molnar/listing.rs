@@ -89,7 +89,7 @@ fn v55() -> anyhow::Result<(Raw, Receiver)> {
 
 fn listing(cx: &Context) -> anyhow::Result<Made> {
     let (stored, seen) = v55()?;
-    let ours = |depth: f32| corrected(presets::wang_molnar94(), &stored, &Receiver { depth, ..seen });
+    let ours = |depth: f32| corrected(presets::wang_molnar94().filter, &stored, &Receiver { depth, ..seen });
     let theirs = |depth: f32, division| percent_illumination(depth, &SECOND, &VIRTUAL, division);
     let plain = SECOND.iter().filter(|&&second| 6.0 <= second).count();
     let mut rows = Vec::new();
@@ -164,7 +164,7 @@ fn sheets(cx: &Context) -> anyhow::Result<Set> {
 fn errata() -> anyhow::Result<Table> {
     let view = sun()?;
     let (stored, seen) = v55()?;
-    let rule = presets::wang_molnar94();
+    let rule = presets::wang_molnar94().filter;
     let lit = |value: f32| short(f64::from(value), 3);
     // An edge beside a level receiver, for neighbourhoods.
     let edge = map(&view, |texel| if texel.x < 8 { 5.0 } else { 9.0 })?;
@@ -259,5 +259,5 @@ fn edge_on() -> anyhow::Result<(String, f32)> {
     let plane = (to_light.inverse().transpose() * DVec3::X.extend(0.0)).as_vec4();
     let depth = -(plane.x / plane.z) * 0.1 - (plane.y / plane.z) * 0.1 - plane.w / plane.z;
     let half = map(&view, |texel| if texel.x < 32 { 5.0 } else { f32::INFINITY })?;
-    Ok((short(f64::from(depth), 3), corrected(presets::wang_molnar94(), &half, &seen)))
+    Ok((short(f64::from(depth), 3), corrected(presets::wang_molnar94().filter, &half, &seen)))
 }

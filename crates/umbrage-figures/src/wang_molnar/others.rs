@@ -49,7 +49,7 @@ fn ring() -> anyhow::Result<Scene> {
         UVec2::splat(512),
     )?;
     let (ambient, background) = (Vec3::splat(0.15), Vec3::new(0.02, 0.02, 0.03));
-    Ok(Scene { name: "ring".into(), objects, lights: vec![lamp], ambient, background, camera })
+    Ok(Scene { name: "ring".into(), origin: DVec3::ZERO, objects, lights: vec![lamp], ambient, background, camera })
 }
 
 /// The same surfaces, each triangle an object of its own; and the object that each was part of.

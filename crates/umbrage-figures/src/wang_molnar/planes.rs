@@ -79,7 +79,7 @@ fn apart(view: &View, key: Key, planes: u32) -> Apart {
     let mut worst = Apart::default();
     for i in 0..planes {
         let Some(corners) = triangle(view, key, i) else { continue };
-        let sheet = Triangle { corners, object: 0, sheet: true };
+        let sheet = Triangle::new(corners, 0, true);
         let window = TexelRect::of_size(view.size());
         let Some(facet) = Bins::new(view, window, Cull::None, [sheet]).facet(0) else { continue };
         let map = bake(view, [sheet], &First, Cull::None).map;

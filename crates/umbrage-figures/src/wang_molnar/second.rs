@@ -48,9 +48,9 @@ fn muddle() -> anyhow::Result<Slice> {
 
 /// The slice with one builder's second surfaces in grey and what the camera sees in shadow in black.
 fn slice_diagram(cx: &Context, title: &str, slice: &Slice, map: &Arc<Tiled>) -> Diagram {
-    let by_map = slice.seen(cx, &*bind(presets::wang_molnar94(), map, cx.storage));
+    let by_map = slice.seen(cx, &*bind(presets::wang_molnar94().filter, map, cx.storage));
     let dark = (0..by_map.object.len()).filter(|&i| by_map.object[i] != NOTHING && by_map.shadow[0][i] >= 0.5);
-    let dark: Vec<DVec2> = dark.map(|i| by_map.position[i].as_dvec3().truncate()).collect();
+    let dark: Vec<DVec2> = dark.map(|i| by_map.position[i].truncate()).collect();
     slice
         .outlined(Diagram::new(title, DVec2::new(-52.0, -8.0), DVec2::new(58.0, 38.0)))
         .named(Mark::Line(4.5), Ink::Faint, &cut(&stored(map), 0.9), "second surface from the light")
@@ -86,7 +86,7 @@ fn union_scene() -> anyhow::Result<Scene> {
         UVec2::splat(512),
     )?;
     let (ambient, background) = (Vec3::splat(0.15), Vec3::new(0.02, 0.02, 0.03));
-    Ok(Scene { name: "union".into(), objects, lights: vec![lamp], ambient, background, camera })
+    Ok(Scene { name: "union".into(), origin: DVec3::ZERO, objects, lights: vec![lamp], ambient, background, camera })
 }
 
 /// Pixels within three of one that shows another object: where solids meet, too, a texel keeps what its neighbour does not.
@@ -115,7 +115,7 @@ fn second(cx: &Context) -> anyhow::Result<Made> {
     let differ: Vec<f32> =
         raw[0].depths().iter().zip(raw[1].depths()).map(|(a, b)| f32::from(u8::from(a != b))).collect();
     let by = maps.each_ref().map(|map| {
-        let shadow = bind(presets::wang_molnar94().with_dark_backs(true), map, cx.storage);
+        let shadow = bind(presets::wang_molnar94().filter.with_dark_backs(true), map, cx.storage);
         set.draw(cx, &*shadow, &Frame::CENTRES)
     });
     let points = set.truth_points(cx, &Frame::CENTRES);

@@ -126,7 +126,7 @@ impl Foot {
         let depth = -light.world_to_eye().transform_point3(self.at).z;
         let texel_world = light.texel_world(depth).max_element();
         let slope = 1.0 / elevation.tan();
-        BiasCase { texel_world, radius: RADIUS, slope, thickness: LEG, elevation, stored: predict::Stored::First }
+        BiasCase { texel_world, radius: RADIUS, slope, thickness: LEG, elevation, stored: umbrage_depth::Stored::First }
     }
 
     /// Pixels of the picture that a world unit of the floor takes at the foot, along the shadow.
@@ -229,7 +229,7 @@ fn table(cx: &Context) -> anyhow::Result<Made> {
 
 fn plots(case: &BiasCase, sweep: &Sweep, second: Found) -> Vec<(String, String)> {
     let of = |measure: fn(&Found) -> f64| sweep.tried.iter().map(|(bias, found)| (*bias, measure(found))).collect();
-    let gap = |bias: f64| predict::contact_gap(bias, case.thickness, case.elevation, case.stored);
+    let gap = |bias: f64| predict::expected_contact_gap(bias, case.thickness, case.elevation, case.stored);
     let acne = Plot::new("False shadow on the floor, 512²", Axis::linear("bias, world units"), Axis::linear("share"))
         .add(Series::line("first depths", of(|found| found.acne)))
         .add(Series::dots("second depths, no bias", vec![(0.0, second.acne)]));

@@ -171,7 +171,7 @@ fn transforms(cx: &Context, stage: &Stage) -> anyhow::Result<(f64, f64, f64)> {
     let seen = picture(scene, &[&Unshadowed], &Frame::CENTRES);
     let visible = seen.depth.iter().filter(|zeta| zeta.is_finite()).count() as f64;
     let map = stage.maps[0].clone().ok_or_else(|| anyhow::anyhow!("the light has no map"))?;
-    let light = ShadowMap { filter: presets::williams78(), map };
+    let light = ShadowMap { filter: presets::williams78().filter, map };
     let afterwards = shadow_image(&seen.depth, &scene.camera, Some(16), &light, Key::new(cx.seed, 0, 0));
     let camera = scene.camera.with_kind(Kind::Axial);
     let layers = bake(&camera, Soup::all(scene, &camera).triangles(), &First, Cull::None).fragments as f64;
@@ -201,7 +201,7 @@ fn balls(count: u32, pixels: u32) -> anyhow::Result<Scene> {
     let mut sun = Light::directional("sun", DVec3::new(-0.5, 0.4, 1.0), DVec3::ZERO, 60.0, 10.0, 260.0, size)?;
     sun.view = sun.view.with_kind(Kind::Screen);
     let (ambient, background) = (Vec3::splat(0.1), Vec3::ZERO);
-    Ok(Scene { name: "balls".into(), objects, lights: vec![sun], ambient, background, camera })
+    Ok(Scene { name: "balls".into(), origin: DVec3::ZERO, objects, lights: vec![sun], ambient, background, camera })
 }
 
 fn cost(cx: &Context) -> anyhow::Result<Made> {
@@ -220,7 +220,7 @@ fn cost(cx: &Context) -> anyhow::Result<Made> {
         let soup = Soup::casters(&scene, view);
         let baked = bake(view, soup.triangles(), &First, Cull::None);
         let pass1 = start.elapsed().as_secs_f64();
-        let light = ShadowMap { filter: presets::williams78(), map: baked.map };
+        let light = ShadowMap { filter: presets::williams78().filter, map: baked.map };
         let start = Instant::now();
         let image = shadow_image(&seen.depth, &scene.camera, Some(16), &light, Key::new(cx.seed, 0, 0));
         let post = start.elapsed().as_secs_f64();
@@ -307,7 +307,7 @@ fn plane(cx: &Context) -> anyhow::Result<Made> {
     let mapped = stage.shoot(cx, RECIPE, &Frame::default())?;
     let truth = stage.truth(cx, &Frame::default());
     // Outside the lamp's cone it is dark anyway, and the projection does not know of cones.
-    let lit = |i: usize| scene.lights[0].incident(truth.position[i].as_dvec3()).1 != Vec3::ZERO;
+    let lit = |i: usize| scene.lights[0].incident(truth.position[i]).1 != Vec3::ZERO;
     let on_slab = of(&truth, |id| id == slab);
     let mask: Vec<bool> = (0..on_slab.len()).map(|i| on_slab[i] && lit(i)).collect();
     let elsewhere = of(&truth, |id| id != slab);

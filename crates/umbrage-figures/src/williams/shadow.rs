@@ -5,7 +5,7 @@ use crate::stage::four_spheres::{Alone, alone, dithered, faithful, interpolated,
 use crate::stage::masks::{lit, of, shadow_grid, value};
 use crate::stage::panels::{colour_panel, error_panel, shadow_image_panel, truth_panel};
 use crate::stage::set::Set;
-use glam::{DVec2, UVec2, Vec3};
+use glam::{DVec2, DVec3, UVec2, Vec3};
 use std::sync::Arc;
 use umbrage_depth::{DepthMap, Raw, Tiled, bandlimit};
 use umbrage_oracle::metrics::{self, Grid};
@@ -262,8 +262,8 @@ fn dither(cx: &Context) -> anyhow::Result<Made> {
 fn away_from_silhouettes(set: &Set, truth: &Picture) -> Vec<bool> {
     let light = set.map.view();
     let jump = 0.5 / (light.far() - light.near()) as f32;
-    let smooth = |at: Vec3| {
-        let eye = light.world_to_eye().transform_point3(at.as_dvec3());
+    let smooth = |at: DVec3| {
+        let eye = light.world_to_eye().transform_point3(at);
         let texel = light.eye_to_texel(eye).floor().as_ivec2();
         let window = TexelRect::new(texel - 2, texel + 3);
         let (low, high) = window

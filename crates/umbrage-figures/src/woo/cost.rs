@@ -25,9 +25,9 @@ fn cost(cx: &Context) -> anyhow::Result<Made> {
     let points = points_of(&seen);
     let key = Key::new(cx.seed, 0, 0);
     let (mut by_float, mut by_whole) = (vec![0.0; points.len()], vec![0.0; points.len()]);
-    let floats = ShadowMap { filter: presets::woo92(), map: map.clone() };
+    let floats = ShadowMap { filter: presets::woo92().filter, map: map.clone() };
     let wholes = ShadowMap { filter: IntegerFirst::default(), map: map.clone() };
-    let listing = ShadowMap { filter: presets::reeves87(), map: Raw::copy_of(&map) };
+    let listing = ShadowMap { filter: presets::reeves87().filter, map: Raw::copy_of(&map) };
     let mut counters = Counters::default();
     wholes.fractions_probed(&points, key, &mut by_whole, &mut counters);
     let mut timings = Vec::new();

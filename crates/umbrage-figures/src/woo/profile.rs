@@ -62,7 +62,8 @@ fn profile(cx: &Context) -> anyhow::Result<Made> {
     let world = view.world_at(DVec2::new(starred, f64::from(row) + 0.5), -1.0 / surface(starred)).as_vec3();
     let point = SurfacePoint::at(world, view.toward_eye(world.as_dvec3()).as_vec3());
     let key = Key::new(cx.seed, 0, 0);
-    let ask = |map: &Arc<Tiled>| f64::from(bind(presets::ordinary(Bias::ZERO), map, cx.storage).fraction(&point, key));
+    let ask =
+        |map: &Arc<Tiled>| f64::from(bind(presets::ordinary(Bias::ZERO).filter, map, cx.storage).fraction(&point, key));
     let plot = Plot::new(
         "One row of a 64² map",
         Axis::linear("texel column"),

@@ -16,6 +16,7 @@
 //! then belong to it. The bound of the map is in `epsilon`; view and digest are in `comments` as in flat maps.
 
 mod columns;
+mod content;
 mod opacity;
 mod packing;
 mod read;
@@ -24,20 +25,10 @@ mod write;
 use crate::error::{Fault, IoError};
 use crate::file::{read_bytes, write_bytes};
 use std::path::Path;
-use umbrage_depth::{DeepMap, DepthMap, Step};
-use umbrage_plane::TexelRect;
+use umbrage_depth::DeepMap;
 
 /// Most texels, and most steps of all texels together, that [`read_deep_map`] takes: 67,108,864, which is 1 GiB of steps.
 pub const DEFAULT_DEEP_BUDGET: u64 = 1 << 26;
-
-/// The attribute that holds the bound of a map's compression.
-const EPSILON: &str = "epsilon";
-
-/// The channels of a map through which all light passes alike, in the order that files need.
-const GREY: [&str; 3] = ["A", "Z", "passes.Y"];
-
-/// The channels of the others.
-const COLOUR: [&str; 8] = ["A", "AB", "AG", "AR", "Z", "passes.B", "passes.G", "passes.R"];
 
 /// A deep map's file as bytes; the same bytes for the same map.
 ///
@@ -85,22 +76,4 @@ pub fn read_deep_map_within(path: &Path, most_steps: u64) -> Result<DeepMap, IoE
 /// A [`Fault`], when the bytes are no deep map of that size.
 pub fn decode_deep_map(bytes: &[u8], most_steps: u64) -> Result<DeepMap, Fault> {
     read::decode(bytes, most_steps)
-}
-
-/// True when red, green and blue pass alike, bit for bit.
-fn is_grey(map: &DeepMap) -> bool {
-    let texels = TexelRect::of_size(map.view().size()).texels();
-    let grey = |step: &Step| step.passes.to_array().iter().all(|share| share.to_bits() == step.passes.x.to_bits());
-    texels.flat_map(|texel| map.steps(texel)).all(grey)
-}
-
-/// All that a map holds beside its view, for its digest. Numbers of steps are told by their bits.
-fn numbers(map: &DeepMap) -> impl Iterator<Item = f32> {
-    let texels = TexelRect::of_size(map.view().size()).texels();
-    let texels = texels.flat_map(|texel| {
-        let steps = map.steps(texel);
-        let values = steps.iter().flat_map(|step| [step.depth, step.passes.x, step.passes.y, step.passes.z]);
-        std::iter::once(f32::from_bits(steps.len() as u32)).chain(values)
-    });
-    std::iter::once(map.epsilon()).chain(texels)
 }

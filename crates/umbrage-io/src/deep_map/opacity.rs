@@ -1,4 +1,4 @@
-use super::Step;
+use umbrage_depth::Step;
 
 /// The opacities of a texel's surfaces, one after the other, as compositing wants them: each of its surface alone, what is in front of it
 /// left out. That is 1 − V / V′, of the transmittance V behind it and V′ before it.

@@ -1,14 +1,14 @@
 use super::columns::{Column, Columns, Light};
+use super::content::{EPSILON, numbers};
 use super::opacity::Opacities;
 use super::packing::unpack;
-use super::{DeepMap, EPSILON, Step, numbers};
 use crate::error::Fault;
 use crate::shadow_map::{Preface, check_digest, digest};
 use exr::meta::BlockDescription;
 use exr::meta::header::Header;
 use exr::prelude::{AttributeValue, Compression, Text, Vec2};
 use glam::Vec3;
-use umbrage_depth::DepthMap;
+use umbrage_depth::{DeepMap, DepthMap, Step, Stored};
 
 /// Bytes before a row's packed table: its number and three lengths.
 const ROW_HEAD: usize = 28;
@@ -43,7 +43,7 @@ pub(super) fn decode(bytes: &[u8], most_steps: u64) -> Result<DeepMap, Fault> {
         return Err(fault);
     }
     let map = map.map_err(|error| Fault::new("samples", "no map", error))?;
-    check_digest(file.digest, digest(map.view(), numbers(&map)))?;
+    check_digest(file.digest, digest(map.view(), Stored::First, numbers(&map)))?;
     Ok(map)
 }
 

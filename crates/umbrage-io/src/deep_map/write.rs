@@ -1,6 +1,6 @@
+use super::content::{COLOUR, EPSILON, GREY, is_grey, numbers};
 use super::opacity::Opacities;
 use super::packing::{PACKING, pack};
-use super::{COLOUR, DeepMap, EPSILON, GREY, Step, is_grey, numbers};
 use crate::error::Fault;
 use crate::shadow_map::{attributes, channel, comments, display, stored_window};
 use exr::meta::attribute::{self, BlockType};
@@ -8,7 +8,7 @@ use exr::meta::header::{Header, standard_names};
 use exr::meta::{BlockDescription, Requirements, magic_number, sequence_end};
 use exr::prelude::{AttributeValue, LineOrder, Text, Vec2};
 use glam::IVec2;
-use umbrage_depth::DepthMap;
+use umbrage_depth::{DeepMap, DepthMap, Step, Stored};
 use umbrage_plane::TexelRect;
 
 pub(super) fn encode(map: &DeepMap) -> Result<Vec<u8>, Fault> {
@@ -33,7 +33,7 @@ pub(super) fn encode(map: &DeepMap) -> Result<Vec<u8>, Fault> {
 /// The library writes headers of flat images only; the parts of one are the same.
 fn write_header(map: &DeepMap, window: TexelRect, names: &[&str], bytes: &mut Vec<u8>) -> exr::error::UnitResult {
     let (view, sides) = (map.view(), window.size());
-    let comments = comments(view, numbers(map));
+    let comments = comments(view, Stored::First, numbers(map));
     let channels = names.iter().map(|name| channel(name)).collect();
     let mut header = Header::new(Text::from("shadow"), Vec2(sides.x as usize, sides.y as usize), channels)
         .with_encoding(PACKING, BlockDescription::ScanLines, LineOrder::Increasing)

@@ -10,7 +10,7 @@ use pager::{Page, Pager};
 use std::cell::RefCell;
 use std::path::Path;
 use std::sync::{Arc, Weak};
-use umbrage_depth::DepthMap;
+use umbrage_depth::{DepthMap, Stored};
 use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
 
 /// A shadow map of which only the tiles looked at last are in memory (R87-20): pages of the file's own tiles, 64×64 texels and
@@ -49,6 +49,7 @@ use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
 #[derive(Debug)]
 pub struct Paged {
     view: View,
+    stored: Stored,
     pager: Arc<Pager>,
 }
 
@@ -66,9 +67,9 @@ impl Paged {
     /// [`IoError`]: one line with the file, the field and its value, when `pages` is 0, the system refuses, header or offset table are
     /// damaged or hostile, or the file is no tiled shadow map.
     pub fn open(path: &Path, pages: usize) -> Result<(Self, PagedHandle), IoError> {
-        let (pager, view) = Pager::open(path, pages)?;
+        let (pager, view, stored) = Pager::open(path, pages)?;
         let pager = Arc::new(pager);
-        Ok((Self { view, pager: Arc::clone(&pager) }, PagedHandle { pager }))
+        Ok((Self { view, stored, pager: Arc::clone(&pager) }, PagedHandle { pager }))
     }
 
     /// The depths of at most 32 texels; +∞ for those outside `within`. Those of one tile are answered together, so that a footprint
@@ -156,6 +157,10 @@ impl DepthMap for Paged {
     /// Nothing outside the data window, unknown inside: no tile is read to answer this.
     fn range(&self, rect: TexelRect) -> DepthRange {
         if self.pager.layout.window().intersect(rect).is_empty() { DepthRange::NOTHING } else { DepthRange::UNKNOWN }
+    }
+
+    fn stored(&self) -> Stored {
+        self.stored
     }
 
     /// Of the pages that are resident now.

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use umbrage_depth::MapError;
+use umbrage_depth::Stored;
 use umbrage_plane::View;
 
 /// Most tiles of a file: their table and directory take 12 bytes each.
@@ -37,13 +38,13 @@ pub(super) struct Pager {
 }
 
 impl Pager {
-    pub(super) fn open(path: &Path, pages: usize) -> Result<(Self, View), IoError> {
+    pub(super) fn open(path: &Path, pages: usize) -> Result<(Self, View, Stored), IoError> {
         if pages == 0 {
             return Err(Fault::new("pages", pages, "one must be kept at least").in_file(path));
         }
         let (file, length) = open_regular(path)?;
         let preface = Preface::read(BufReader::new(&file), length, u64::MAX, MOST_TILES);
-        let Preface { meta, view, layout, offsets, .. } = preface.map_err(|fault| fault.in_file(path))?;
+        let Preface { meta, view, stored, layout, offsets, .. } = preface.map_err(|fault| fault.in_file(path))?;
         if !layout.is_tiled() {
             return Err(Fault::new("tiles", "missing", "scan lines cannot be paged").in_file(path));
         }
@@ -58,7 +59,7 @@ impl Pager {
             faults: AtomicU64::new(0),
             error: OnceLock::new(),
         };
-        Ok((pager, view))
+        Ok((pager, view, stored))
     }
 
     /// A tile's page, which is read when it was not kept. After the first error nothing is read.

@@ -2,8 +2,13 @@ use crate::error::Fault;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, Mat4, UVec2};
 use umbrage_plane::{Projection, View};
 
-/// How far a foreign file's matrices, which are f32 and were multiplied by others, may be off.
+/// How far the axes and scales in a foreign file's matrices, which are f32 and were multiplied by others, may be off. It does
+/// not depend on where the light stands.
 const SLACK: f64 = 1e-3;
+
+/// By what share of themselves the shifts in the two matrices may disagree: four roundings to f32 each. Far from the world's
+/// origin that is many world units.
+const ROUNDINGS: f64 = 1.0 / 2_097_152.0;
 
 /// From our eye space (looking down −z) to OpenEXR's camera space (+z ahead), and back.
 const EYE_TO_CAMERA: DMat4 = DMat4::from_diagonal(DVec4::new(1.0, 1.0, -1.0, 1.0));
@@ -29,6 +34,7 @@ pub(crate) fn to_view(
     size: UVec2,
 ) -> Result<View, Fault> {
     let camera = Mat4::from_cols_array(world_to_camera).as_dmat4();
+    // The axes alone: how large the shift is says nothing about them.
     let rotation = DMat3::from_mat4(camera);
     let last_row = camera.row(3);
     let is_rigid = (rotation * rotation.transpose()).abs_diff_eq(DMat3::IDENTITY, SLACK)
@@ -39,7 +45,7 @@ pub(crate) fn to_view(
         return Err(Fault::new("worldToCamera", format!("{world_to_camera:?}"), problem));
     }
     let ndc = Mat4::from_cols_array(world_to_ndc).as_dmat4();
-    let projection = projection(ndc * camera.inverse()).ok_or_else(|| {
+    let projection = projection(ndc, camera).ok_or_else(|| {
         let problem = "neither a centred perspective nor a centred parallel projection of worldToCamera";
         Fault::new("worldToNDC", format!("{world_to_ndc:?}"), problem)
     })?;
@@ -47,7 +53,8 @@ pub(crate) fn to_view(
         .map_err(|error| Fault::new("near, far", format!("{near}, {far}"), error))
 }
 
-/// A nearly rigid transform without the roundings of its f32 entries, as an exact one.
+/// A nearly rigid transform without the roundings of its f32 entries, as an exact one that has its eye where the file has it: about
+/// there both agree, however far that is from the world's origin.
 fn straightened(camera: DMat4) -> DMat4 {
     let rows = DMat3::from_mat4(camera).transpose();
     let ahead = rows.z_axis.normalize();
@@ -56,25 +63,45 @@ fn straightened(camera: DMat4) -> DMat4 {
     let up = right.cross(ahead);
     let rotation = DMat3::from_cols(right, up, ahead).transpose();
     let mut exact = DMat4::from_mat3(rotation);
-    exact.w_axis = camera.w_axis.truncate().extend(1.0);
+    let eye = rows.transpose().inverse() * -camera.w_axis.truncate();
+    exact.w_axis = -(rotation * eye).extend(-1.0);
     exact
 }
 
+/// One row of what takes camera space to NDC.
+struct Row {
+    along: DVec3,
+    /// What the shifts of the two matrices leave of each other.
+    rest: f64,
+    /// By how much the roundings of the two may change that.
+    rounding: f64,
+}
+
 /// What takes camera space (+z ahead) to NDC: (a·x + z/2, z/2 − b·y)/z in perspective, (a·x + ½, ½ − b·y) in parallel.
-fn projection(camera_to_ndc: DMat4) -> Option<Projection> {
-    let [x, y, w] = [0, 1, 3].map(|row| camera_to_ndc.row(row));
-    let perspective = w.z.abs() > w.w.abs();
+fn projection(ndc: DMat4, camera: DMat4) -> Option<Projection> {
+    let shift = camera.w_axis.truncate();
+    let to_camera = DMat3::from_mat4(camera).transpose().inverse();
+    let [x, y, w] = [0, 1, 3].map(|index| {
+        let row = ndc.row(index);
+        let along = to_camera * row.truncate();
+        let rest = row.w - along.dot(shift);
+        Row { along, rest, rounding: ROUNDINGS * (row.w.abs() + along.abs().dot(shift.abs())) }
+    });
+    let perspective = w.along.z.abs() > w.rest.abs() - w.rounding;
     // A matrix of homogeneous coordinates may be scaled as a whole.
-    let scale = if perspective { w.z } else { w.w };
-    let [x, y, w] = [x, y, w].map(|row| row / scale);
+    let scale = if perspective { w.along.z } else { w.rest };
     let middle = if perspective { DVec4::Z } else { DVec4::W };
-    let close = |a: DVec4, b: DVec4| a.is_finite() && a.abs_diff_eq(b, SLACK * (1.0 + b.abs().max_element()));
-    let (a, b) = (x.x, -y.y);
+    let close = |row: &Row, to: DVec4| {
+        let off = (row.along.extend(row.rest) / scale - to).abs();
+        let slack = DVec4::splat(SLACK * (1.0 + to.abs().max_element()));
+        off.is_finite() && off.cmple(slack + DVec4::W * (row.rounding / scale).abs()).all()
+    };
+    let (a, b) = (x.along.x / scale, -y.along.y / scale);
     let fits = a > 0.0
         && b > 0.0
-        && close(w, middle)
-        && close(x, DVec4::X * a + middle * 0.5)
-        && close(y, DVec4::NEG_Y * b + middle * 0.5);
+        && close(&w, middle)
+        && close(&x, DVec4::X * a + middle * 0.5)
+        && close(&y, DVec4::NEG_Y * b + middle * 0.5);
     let scales = DVec2::new(a, b) * 2.0;
     fits.then(|| {
         if perspective {

@@ -41,7 +41,7 @@ pub fn write_shadow_map(path: &Path, map: &impl DepthMap) -> Result<(), IoError>
     write_bytes(path, &encode_shadow_map(map).map_err(|fault| fault.in_file(path))?)
 }
 
-/// Reads a map: depths and view equal those that were written bit for bit (R87-4). Depths of 1e30 and more count as +∞
+/// Reads a map: depths, view and stored surface equal those that were written bit for bit (R87-4). Depths of 1e30 and more count as +∞
 /// (C-5).
 ///
 /// Files of other makers are taken when they have one part with one channel `Z` of floats, stored without loss, and the four
@@ -69,6 +69,7 @@ pub fn read_shadow_map_within(path: &Path, most_texels: u64) -> Result<Raw, IoEr
 /// # Errors
 /// A [`Fault`], when the bytes are no shadow map of that size.
 pub fn decode_shadow_map(bytes: &[u8], most_texels: u64) -> Result<Raw, Fault> {
-    let (view, depths) = read::decode(bytes, most_texels)?;
-    Raw::new(view, depths).map_err(|error| Fault::new("channel Z", "no map", error))
+    let (view, stored, depths) = read::decode(bytes, most_texels)?;
+    let map = Raw::new(view, depths).map_err(|error| Fault::new("channel Z", "no map", error))?;
+    Ok(map.with_stored(stored))
 }

@@ -5,6 +5,7 @@ use exr::meta::header::Header;
 use exr::prelude::{Compression, SampleType, Vec2};
 use glam::{IVec2, UVec2};
 use std::io::{BufRead, Read};
+use umbrage_depth::Stored;
 use umbrage_plane::{TexelRect, View};
 
 /// Longer headers are not read.
@@ -15,6 +16,8 @@ const MOST_HEADER_BYTES: u64 = 1 << 20;
 pub(crate) struct Preface {
     pub(crate) meta: MetaData,
     pub(crate) view: View,
+    /// Which surface the depths belong to; the nearest in files of other makers.
+    pub stored: Stored,
     /// Of view and depths; files of other makers have none.
     pub(crate) digest: Option<u64>,
     pub(crate) layout: Layout,
@@ -60,12 +63,12 @@ impl Preface {
         }
         file.set_limit(length - position);
         let offsets = offsets(file, position, length, blocks)?;
-        let (view, digest) = view(header, size)?;
-        Ok(Self { meta, view, digest, layout, offsets })
+        let (view, stored, digest) = view(header, size)?;
+        Ok(Self { meta, view, stored, digest, layout, offsets })
     }
 }
 
-pub(crate) fn decode(bytes: &[u8], most_texels: u64) -> Result<(View, Vec<f32>), Fault> {
+pub(crate) fn decode(bytes: &[u8], most_texels: u64) -> Result<(View, Stored, Vec<f32>), Fault> {
     let file = Preface::read(bytes, bytes.len() as u64, most_texels, u64::MAX)?;
     let size = file.view.size();
     let texels = size.x as usize * size.y as usize;
@@ -79,8 +82,8 @@ pub(crate) fn decode(bytes: &[u8], most_texels: u64) -> Result<(View, Vec<f32>),
             depths[texel.y as usize * size.x as usize + texel.x as usize] = f32::from_ne_bytes(*sample);
         }
     }
-    check_digest(file.digest, text::digest(&file.view, depths.iter().copied()))?;
-    Ok((file.view, depths))
+    check_digest(file.digest, text::digest(&file.view, file.stored, depths.iter().copied()))?;
+    Ok((file.view, file.stored, depths))
 }
 
 /// A file of ours holds what was written.
@@ -175,14 +178,14 @@ fn offsets(mut file: impl Read, position: u64, length: u64, count: usize) -> Res
     }
 }
 
-/// The view from our text, with the digest that belongs to it, or from the attributes that every tool writes.
-fn view(header: &Header, size: UVec2) -> Result<(View, Option<u64>), Fault> {
+/// The view from our text, with the stored surface and the digest that belong to it, or from the attributes that every tool writes.
+fn view(header: &Header, size: UVec2) -> Result<(View, Stored, Option<u64>), Fault> {
     let attributes = &header.own_attributes;
     if let Some(view) = attributes.comments.as_ref().and_then(|comments| text::to_view(&comments.to_string())) {
-        let (view, digest) = view?;
+        let text::Description { view, stored, digest } = view?;
         let (inside, outside) = (view.size(), size);
         return if inside == outside {
-            Ok((view, Some(digest)))
+            Ok((view, stored, Some(digest)))
         } else {
             let problem = format!("displayWindow is {} x {}", outside.x, outside.y);
             Err(Fault::new("comments: size", format!("{} x {}", inside.x, inside.y), problem))
@@ -199,5 +202,5 @@ fn view(header: &Header, size: UVec2) -> Result<(View, Option<u64>), Fault> {
         attributes.far_clip_plane.ok_or_else(|| missing("far"))?,
         size,
     )?;
-    Ok((view, None))
+    Ok((view, Stored::First, None))
 }

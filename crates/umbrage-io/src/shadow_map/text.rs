@@ -1,6 +1,7 @@
 use crate::error::Fault;
 use glam::{DMat4, DVec2, UVec2};
 use std::fmt::Write;
+use umbrage_depth::Stored;
 use umbrage_plane::{Kind, Projection, Rules, Sampling, Verdict, View};
 
 /// The first line of the text that holds a view.
@@ -13,7 +14,7 @@ const FIELD: &str = "comments";
 pub(crate) const SOFTWARE: &str = "umbrage";
 
 /// A view as lines of `name=value`. Numbers are the shortest decimals that give the same f64 again.
-fn of_view(view: &View) -> String {
+fn of_view(view: &View, stored: Stored) -> String {
     let numbers = |numbers: &[f64]| numbers.iter().map(|n| format!("{n:?}")).collect::<Vec<_>>().join(" ");
     let (projection, scale) = match view.projection() {
         Projection::Perspective { k } => ("perspective", k),
@@ -46,29 +47,41 @@ fn of_view(view: &View) -> String {
     if let Some(tan_half) = view.cone() {
         line("cone", &numbers(&[tan_half]));
     }
+    // Nearest surfaces are what a file without this line holds.
+    if stored != Stored::First {
+        line("stored", stored.name());
+    }
     text
 }
 
-/// The text of a file: the view, and the digest of view and depths.
-pub(crate) fn of_map(view: &View, depths: impl IntoIterator<Item = f32>) -> String {
-    format!("{}digest={:016x}\n", of_view(view), digest(view, depths))
+/// What our text says of a map.
+pub(crate) struct Description {
+    pub view: View,
+    pub stored: Stored,
+    /// Of view, stored surface and depths.
+    pub digest: u64,
+}
+
+/// The text of a file: the view, which surface is stored, and the digest of both and the depths.
+pub(crate) fn of_map(view: &View, stored: Stored, depths: impl IntoIterator<Item = f32>) -> String {
+    format!("{}digest={:016x}\n", of_view(view, stored), digest(view, stored, depths))
 }
 
 /// A number that depends on every bit of a view and its depths (64-bit FNV-1a), so that a damaged file is not taken for
 /// another map. It is no seal: whoever wants to can compute it.
-pub(crate) fn digest(view: &View, depths: impl IntoIterator<Item = f32>) -> u64 {
+pub(crate) fn digest(view: &View, stored: Stored, depths: impl IntoIterator<Item = f32>) -> u64 {
     let fold = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3);
-    let start = of_view(view).bytes().fold(0xCBF2_9CE4_8422_2325, fold);
+    let start = of_view(view, stored).bytes().fold(0xCBF2_9CE4_8422_2325, fold);
     depths.into_iter().flat_map(f32::to_le_bytes).fold(start, fold)
 }
 
-/// The view in a text and the digest beside it, or `None` when the text is somebody else's.
-pub(crate) fn to_view(text: &str) -> Option<Result<(View, u64), Fault>> {
+/// What a text says of a map, or `None` when the text is somebody else's.
+pub(crate) fn to_view(text: &str) -> Option<Result<Description, Fault>> {
     let lines = text.strip_prefix(SIGNATURE)?.strip_prefix('\n')?;
     Some(parse(lines))
 }
 
-fn parse(lines: &str) -> Result<(View, u64), Fault> {
+fn parse(lines: &str) -> Result<Description, Fault> {
     let line = |name: &str| {
         let value = |line: &'_ str| line.strip_prefix(name)?.strip_prefix('=').map(str::to_owned);
         lines.lines().find_map(value)
@@ -92,7 +105,10 @@ fn parse(lines: &str) -> Result<(View, u64), Fault> {
     let view = view.with_cone(cone).map_err(|error| fault("cone", &format!("{cone:?}"), &error.to_string()))?;
     let digest = need("digest")?;
     let number = u64::from_str_radix(&digest, 16).map_err(|error| fault("digest", &digest, &error.to_string()))?;
-    Ok((view, number))
+    let stored = line("stored").map_or(Ok(Stored::First), |name| {
+        Stored::named(&name).ok_or_else(|| fault("stored", &name, "not first, second, back-face, midpoint or other"))
+    })?;
+    Ok(Description { view, stored, digest: number })
 }
 
 fn numbers<const N: usize>(name: &str, text: &str) -> Result<[f64; N], Fault> {

@@ -2,6 +2,7 @@
 
 mod deep_hostile;
 mod deep_maps;
+mod far;
 mod files;
 mod hostile;
 mod paged;

@@ -200,3 +200,17 @@ proptest! {
         prop_assert_eq!(read.view(), written.view());
     }
 }
+
+#[test]
+fn a_file_says_which_surface_its_map_stores() {
+    let view = View::orthographic(DVec3::Y, DVec3::ZERO, DVec3::X, 1.0, 0.0, 9.0, UVec2::splat(3)).expect("a view");
+    for stored in umbrage_depth::Stored::ALL {
+        let map = Raw::new(view, vec![2.0; 9]).expect("a map").with_stored(stored);
+        let read = decode_shadow_map(&encode_shadow_map(&map).expect("written"), 9).expect("read");
+        assert_eq!(read, map, "{stored}");
+    }
+    // A file that says nothing holds nearest surfaces, as all did before.
+    let plain = Raw::new(view, vec![2.0; 9]).expect("a map");
+    let bytes = encode_shadow_map(&plain).expect("written");
+    assert!(!bytes.windows(7).any(|word| word == b"stored="));
+}

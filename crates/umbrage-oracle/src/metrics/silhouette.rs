@@ -4,7 +4,7 @@ use rayon::slice::ParallelSliceMut;
 use umbrage_plane::View;
 use umbrage_scene::{Mesh, Scene};
 
-/// How far each world position lies from the nearest silhouette that the light's view sees of any object, in texels of
+/// How far each world position ([`Vec3`] or [`DVec3`]) lies from the nearest silhouette that the light's view sees of any object, in texels of
 /// its map, 0..=`most`: what is farther away counts as `most`.
 ///
 /// A silhouette is an edge between a triangle that faces the light and one that does not, or an edge that is not shared
@@ -17,30 +17,34 @@ use umbrage_scene::{Mesh, Scene};
 ///
 /// Patches are diced as for the map. NaN where the map does not hold the position (outside its rectangle, not in front
 /// of the light), or it or `most` is not finite: no comparison with it holds.
-pub fn silhouette_distance(view: &View, scene: &Scene, positions: &[Vec3], most: f32) -> Vec<f32> {
+///
+/// # Panics
+/// When the scene's origin is not finite.
+pub fn silhouette_distance(view: &View, scene: &Scene, positions: &[impl Copy + Into<DVec3>], most: f32) -> Vec<f32> {
     if !most.is_finite() {
         return vec![f32::NAN; positions.len()];
     }
     let most = f64::from(most.max(0.0));
     let mut squares = Squares::new(view, most);
+    let local = &scene.about_origin(view);
     for object in &scene.objects {
-        for edge in silhouettes(view, &object.shape.mesh_for(view)) {
-            if let Some(segment) = in_texels(view, edge) {
+        for edge in silhouettes(local, &object.shape.mesh_for(local)) {
+            if let Some(segment) = in_texels(local, edge) {
                 squares.insert(segment);
             }
         }
     }
-    let distance = |at: &Vec3| {
-        let eye = view.world_to_eye().transform_point3(at.as_dvec3());
+    let distance = |at: DVec3| {
+        let eye = view.world_to_eye().transform_point3(at);
         if !at.is_finite() || (view.is_perspective() && eye.z >= 0.0) {
             return f32::NAN;
         }
         squares.distance(view.eye_to_texel(eye)).map_or(f32::NAN, |distance| distance as f32)
     };
-    positions.iter().map(distance).collect()
+    positions.iter().map(|&at| distance(at.into())).collect()
 }
 
-/// The silhouette edges of a mesh, world space.
+/// The silhouette edges of a mesh that a view sees, both in one space.
 fn silhouettes(view: &View, mesh: &Mesh) -> Vec<[DVec3; 2]> {
     let light = view.light();
     let mut edges = Vec::with_capacity(3 * mesh.triangles.len());

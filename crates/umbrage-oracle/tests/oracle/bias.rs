@@ -1,6 +1,7 @@
 //! WM94-18, D-10: is there a bias that does?
 use std::f64::consts::FRAC_PI_2;
-use umbrage_oracle::predict::{Stored, contact_gap, no_bias_works};
+use umbrage_depth::Stored;
+use umbrage_oracle::predict::{expected_contact_gap, no_bias_works};
 use umbrage_oracle::{BiasCase, BiasSearch, BiasWindow};
 
 /// V57's floor: 1000 world units over a map of `side` texels.
@@ -22,8 +23,8 @@ fn v57_d_10_contact_gaps() {
         (Stored::Midpoint, 8.606_602, 1.535_534),
         (Stored::Second, 10.606_602, 3.535_534),
     ] {
-        near(contact_gap(15.0, 4.0, elevation, stored), wide);
-        near(contact_gap(5.0, 4.0, elevation, stored), narrow);
+        near(expected_contact_gap(15.0, 4.0, elevation, stored), wide);
+        near(expected_contact_gap(5.0, 4.0, elevation, stored), narrow);
     }
 }
 
@@ -41,8 +42,8 @@ fn v57_d_10_windows() {
         assert_eq!(window.works(), need <= allow);
         assert_eq!(window.works(), !no_bias_works(case.texel_world, radius, thickness, case.elevation));
         // The window says where the gap begins.
-        near(contact_gap(allow, thickness, case.elevation, Stored::First), 0.0);
-        assert!(contact_gap(allow + 0.1, thickness, case.elevation, Stored::First) > 0.0);
+        near(expected_contact_gap(allow, thickness, case.elevation, Stored::First), 0.0);
+        assert!(expected_contact_gap(allow + 0.1, thickness, case.elevation, Stored::First) > 0.0);
     }
 }
 
@@ -103,7 +104,7 @@ fn wm94_18_search_finds_what_is_predicted() {
         let predicted = case.window();
         let measure = |bias: f64| {
             let acne = umbrage_oracle::predict::false_shadow_share(case.texel_world * case.slope, 0.0, (bias, bias));
-            (acne, contact_gap(bias, 1.0, case.elevation, Stored::First))
+            (acne, expected_contact_gap(bias, 1.0, case.elevation, Stored::First))
         };
         let found = BiasSearch { most_acne: 0.0, most_gap: 0.0, ..TRY }.run(measure);
         near_by(found.acne_free.unwrap(), predicted.acne_free.unwrap());

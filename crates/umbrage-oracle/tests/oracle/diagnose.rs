@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Mat3, UVec2, Vec3};
 use std::f32::consts::FRAC_PI_4;
-use umbrage_oracle::predict::Stored;
+use umbrage_depth::Stored;
 use umbrage_oracle::{Diagnostic, Plan, diagnose};
 use umbrage_scene::{Light, Mesh, Scene, Shape, gallery};
 

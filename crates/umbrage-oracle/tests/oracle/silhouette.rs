@@ -21,6 +21,7 @@ fn scene(meshes: Vec<Mesh>) -> Scene {
     let object = |mesh| Object::two_sided("thing", Shape::Mesh(mesh), Material::matt(Vec3::ONE));
     Scene {
         name: String::new(),
+        origin: DVec3::ZERO,
         objects: meshes.into_iter().map(object).collect(),
         lights: vec![],
         ambient: Vec3::ZERO,

@@ -103,8 +103,7 @@ fn ext_1_ext_3_regions_and_discs_mean_what_passes() {
     let geometry = Geometry::from_faces(card(2.0, -10.0, 0), vec![sheet(RED)]);
     let ray = || RayCast::everywhere(&geometry, DVec4::Y);
     let mut region = on_floor(-0.25, 0.5);
-    region.corners =
-        [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(|(x, z)| region.position + Vec3::new(x, 0.0, z));
+    region.corner_offsets = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(|(x, z)| Vec3::new(x, 0.0, z));
     let disc = AreaLight::new(ray(), 0.1).with_samples(1024);
     // Three quarters of the region lie under the card; half of the disc at its edge.
     for (answer, share) in [

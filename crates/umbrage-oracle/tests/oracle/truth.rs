@@ -35,8 +35,7 @@ fn r87_f6_region_truth_is_a_ratio_of_areas() {
     let truth = AreaRegion { across: 32, ..AreaRegion::new(RayCast::everywhere(&geometry, DVec4::Y)) };
     for (centre, expected) in [(-1.0, 1.0), (-0.25, 0.75), (0.0, 0.5), (0.1, 0.4), (0.6, 0.0)] {
         let mut region = on_floor(centre);
-        region.corners =
-            [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(|(x, z)| region.position + Vec3::new(x, 0.0, z));
+        region.corner_offsets = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(|(x, z)| Vec3::new(x, 0.0, z));
         // One column of 32 strata straddles the edge: D-12's variance is below (.0023)².
         assert!((truth.fraction(&region, KEY) - expected).abs() < 0.01, "centre {centre}");
     }
@@ -49,7 +48,7 @@ fn d16_ext_1_penumbra_of_a_disc() {
     let geometry = half_plane();
     let radius = 0.5;
     // Light 10 above the floor, card 8 below the light: the penumbra is 2·.5·2/8 = .25 wide.
-    let width = predict::penumbra_width(2.0 * radius, 8.0, 10.0);
+    let width = predict::expected_penumbra_width(2.0 * radius, 8.0, 10.0);
     assert_eq!(width, 0.25);
     let share_beyond = |offset: f64| (offset.acos() - offset * (1.0 - offset * offset).sqrt()) / std::f64::consts::PI;
     for light in
@@ -148,6 +147,7 @@ fn x5_a_scene_is_all_its_objects() {
     };
     let scene = Scene {
         name: String::new(),
+        origin: DVec3::ZERO,
         objects: vec![card(true, 1.0), card(false, 2.0)],
         lights: vec![],
         ambient: Vec3::ZERO,
@@ -170,7 +170,7 @@ struct Ramp {
 impl Shadow for Ramp {
     fn fractions(&self, at: &[SurfacePoint], _key: Key, out: &mut [f32]) {
         for (point, out) in at.iter().zip(out) {
-            *out = ((point.position.x - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
+            *out = ((point.position.x as f32 - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
         }
     }
 }
@@ -196,7 +196,7 @@ fn d16_v65_disc_edge_is_what_rays_find() {
     let geometry = half_plane();
     let light = RayCast::new(&geometry, &lamp(Rules::OPEN));
     let truth = AreaLight::new(light, 0.5).with_samples(4096);
-    let width = predict::penumbra_width(1.0, 8.0, 10.0);
+    let width = predict::expected_penumbra_width(1.0, 8.0, 10.0);
     let profile = profile_on_surface(&truth, &on_floor(0.0), Vec3::NEG_X, width as f32, 401, KEY);
     let ten_to_ninety = profile.width().unwrap();
     assert!((ten_to_ninety / (predict::DISC_EDGE_10_90 * width) - 1.0).abs() < 0.01, "{ten_to_ninety}");

@@ -48,7 +48,7 @@ fn sides_are_culled_and_sheets_are_not() {
     let view = texel_view(SIZE, Sampling::Centre);
     let [a, b, c] = fine();
     let triangles = [([a, b, c], false), ([a, c, b], false), ([b, c, a], true), ([c, b, a], true)]
-        .map(|(corners, sheet)| Triangle { corners, object: 3, sheet });
+        .map(|(corners, sheet)| Triangle::new(corners, 3, sheet));
     let kept = |cull| {
         let bins = Bins::new(&view, TexelRect::of_size(SIZE), cull, triangles);
         let kept: Vec<_> = bins.facets().map(|facet| (facet.triangle, facet.facing)).collect();

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
 use std::collections::BTreeMap;
 use umbrage_plane::{Facet, Sampling, TexelRect, View};
-use umbrage_raster::{Bins, Cull, TILE, Triangle};
+use umbrage_raster::{BIN, Bins, Cull, Triangle};
 
 /// A view along −z in which one world unit is one texel and world (0, 0) is the map's middle.
 pub fn texel_view(size: UVec2, sampling: Sampling) -> View {
@@ -15,7 +15,7 @@ pub fn texel_view(size: UVec2, sampling: Sampling) -> View {
 
 /// A solid triangle of object 0.
 pub fn solid(corners: [Vec3; 3]) -> Triangle {
-    Triangle { corners, object: 0, sheet: false }
+    Triangle::new(corners, 0, false)
 }
 
 /// Bins over the whole view, nothing culled.
@@ -35,7 +35,7 @@ pub fn fragments(bins: &Bins) -> BTreeMap<(i32, i32), Vec<Facet>> {
 
 /// Calls `each` with every covered texel of a tile.
 pub fn each_in_tile(bins: &Bins, tile: UVec2, mut each: impl FnMut(IVec2, &Facet)) {
-    let origin = (tile * TILE).as_ivec2();
+    let origin = (tile * BIN).as_ivec2();
     let mut before = None;
     bins.tile(tile, |facet, coverage| {
         assert!(before < Some(facet.triangle), "facets come in the order of their triangles, each once");

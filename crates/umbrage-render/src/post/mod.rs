@@ -75,7 +75,7 @@ fn test<M: DepthMap>(light: &ShadowMap<Williams, M>, screen: DVec3, key: Key) ->
     let texel = view.screen_to_texel(DVec2::new(screen.x, screen.y));
     let key_depth = view.key(zeta);
     let world = view.world_at(texel, key_depth);
-    let seen = SurfacePoint::at(world.as_vec3(), view.toward_eye(world).as_vec3());
+    let seen = SurfacePoint::at(world, view.toward_eye(world).as_vec3());
     match view.receiver(&seen) {
         Ok(receiver) => {
             let depth = if view.kind() == Kind::Screen { screen.z as f32 } else { receiver.depth };

@@ -40,6 +40,7 @@ pub fn bicycle_shop() -> Scene {
     .expect("a constant view is valid");
     Scene {
         name: "bicycle-shop".into(),
+        origin: DVec3::ZERO,
         objects,
         lights: lights(),
         ambient: Vec3::new(0.020, 0.022, 0.034),

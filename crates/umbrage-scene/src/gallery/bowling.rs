@@ -33,6 +33,7 @@ pub fn bowling(frame: u32) -> Scene {
     }
     Scene {
         name: "bowling".into(),
+        origin: DVec3::ZERO,
         objects,
         lights: vec![lamp(DVec3::new(34.0, 92.0, 64.0), DVec3::new(0.0, 2.0, 0.0), 68.0, [30.0, 220.0], 512)],
         ambient: Vec3::splat(0.13),

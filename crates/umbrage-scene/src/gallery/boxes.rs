@@ -95,6 +95,7 @@ fn on_floor(name: &str, mut objects: Vec<Object>, [low, high]: [Vec3; 2], light:
     objects.push(Object::solid("floor", floor, GREY));
     Scene {
         name: name.into(),
+        origin: DVec3::ZERO,
         objects,
         lights: vec![light],
         ambient: Vec3::splat(0.15),

@@ -78,6 +78,7 @@ pub fn desk_lamps() -> Scene {
     objects.push(Object::solid("ball band", band(middle), paint(Vec3::new(0.80, 0.62, 0.16))));
     Scene {
         name: "desk-lamps".into(),
+        origin: DVec3::ZERO,
         objects,
         lights,
         ambient: Vec3::new(0.035, 0.035, 0.045),

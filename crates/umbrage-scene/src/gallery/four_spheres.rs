@@ -36,6 +36,7 @@ pub fn four_spheres_lit_from(degrees: f64) -> Scene {
         .expect("the angle is finite");
     Scene {
         name: "four-spheres".into(),
+        origin: DVec3::ZERO,
         objects: spheres
             .into_iter()
             .map(|(name, centre, colour)| {

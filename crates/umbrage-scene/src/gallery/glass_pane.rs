@@ -44,6 +44,7 @@ pub fn glass_pane() -> Scene {
     objects.push(pane("cyan pane", leaning(33.0, -6.0, -0.25), Vec3::new(0.06, 0.80, 0.85)));
     Scene {
         name: "glass-pane".into(),
+        origin: DVec3::ZERO,
         objects,
         lights: vec![lamp(DVec3::new(-40.0, 110.0, -120.0), DVec3::new(8.0, 10.0, 4.0), 42.0, [60.0, 320.0], 512)],
         ambient: Vec3::splat(0.14),

@@ -22,6 +22,7 @@ pub fn moving_ball(time: f32) -> Scene {
     let post = Mesh::cylinder(Vec3::new(26.0, 0.0, -18.0), Vec3::new(26.0, 22.0, -18.0), 3.0, 64);
     Scene {
         name: "moving-ball".into(),
+        origin: DVec3::ZERO,
         objects: vec![
             Object::solid("ball", Mesh::sphere(middle, RADIUS, 128), Material::plastic(Vec3::new(0.75, 0.16, 0.07))),
             Object::solid("post", post, Material::plastic(Vec3::new(0.16, 0.36, 0.62))),

@@ -51,6 +51,7 @@ pub fn pipes() -> Scene {
     }
     Scene {
         name: "pipes".into(),
+        origin: DVec3::ZERO,
         objects,
         lights: vec![lamp(DVec3::new(-70.0, 125.0, 130.0), DVec3::new(0.0, 32.0, 0.0), 44.0, [70.0, 320.0], 512)],
         ambient: Vec3::splat(0.12),

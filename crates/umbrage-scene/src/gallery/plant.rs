@@ -44,6 +44,7 @@ pub fn plant() -> Scene {
     ];
     Scene {
         name: "plant".into(),
+        origin: DVec3::ZERO,
         objects,
         lights: vec![lamp(DVec3::new(-60.0, 120.0, -75.0), DVec3::new(4.0, 14.0, 6.0), 46.0, [50.0, 320.0], 1024)],
         ambient: Vec3::splat(0.20),

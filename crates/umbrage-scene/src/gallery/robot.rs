@@ -60,6 +60,7 @@ pub fn robot() -> Scene {
     .expect("a constant view is valid");
     Scene {
         name: "robot".into(),
+        origin: DVec3::ZERO,
         objects: vec![
             solid("shell", body.shell, Vec3::new(0.72, 0.30, 0.10), 0.35),
             solid("joints", body.joints, Vec3::new(0.10, 0.11, 0.13), 0.30),

@@ -45,6 +45,7 @@ pub fn smile() -> Scene {
     .expect("a constant view is valid");
     Scene {
         name: "smile".into(),
+        origin: DVec3::ZERO,
         objects: vec![
             Object::two_sided("lips", Shape::Patches(lips()), lip),
             Object::two_sided("upper teeth", Shape::Patches(teeth(&UPPER)), enamel),

@@ -67,6 +67,7 @@ fn before_plane(name: &str, thing: Object, lights: Vec<Light>, camera: &View) ->
     let slab = Mesh::cuboid(Vec3::new(-60.0, -60.0, -SLAB_THICKNESS), Vec3::new(60.0, 60.0, 0.0));
     Scene {
         name: name.into(),
+        origin: DVec3::ZERO,
         objects: vec![thing, Object::solid("slab", slab, Material::matt(GREEN))],
         lights,
         ambient: Vec3::splat(0.15),

@@ -57,6 +57,7 @@ pub fn spot_room() -> Scene {
     .expect("a constant view is valid");
     Scene {
         name: "spot-room".into(),
+        origin: DVec3::ZERO,
         objects: things.into_iter().map(|(name, mesh, material)| Object::solid(name, mesh, material)).collect(),
         lights: vec![spot],
         ambient: Vec3::splat(0.10),

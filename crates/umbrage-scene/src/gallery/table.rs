@@ -43,6 +43,7 @@ pub fn table() -> Scene {
     objects.extend(numbered.map(|(number, leg)| Object::solid(&format!("leg {number}"), leg, wood)));
     Scene {
         name: "table".into(),
+        origin: DVec3::ZERO,
         objects,
         lights: vec![lamp(toward(25.0, 180.0) * 3500.0, DVec3::ZERO, 32.0, [2200.0, 5000.0], 512)],
         ambient: Vec3::splat(0.15),

@@ -33,6 +33,7 @@ pub fn teapot() -> Scene {
     .expect("a constant view is valid");
     Scene {
         name: "teapot".into(),
+        origin: DVec3::ZERO,
         objects: vec![
             Object::two_sided("teapot", Shape::Patches(patches), Material::plastic(Vec3::new(0.70, 0.42, 0.16))),
             Object::solid("slab", slab, Material::matt(Vec3::new(0.45, 0.48, 0.55))),

@@ -139,6 +139,7 @@ fn floor(half: f32) -> Object {
 fn small(name: &str, objects: Vec<Object>, camera: &View) -> Scene {
     Scene {
         name: name.into(),
+        origin: DVec3::ZERO,
         objects,
         lights: Vec::new(),
         ambient: Vec3::splat(0.15),

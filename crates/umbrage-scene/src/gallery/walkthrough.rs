@@ -71,6 +71,7 @@ pub fn walkthrough() -> Scene {
     let sun = Light::directional("sun", to_sun, middle, 96.0, 20.0, 260.0, UVec2::splat(2048));
     Scene {
         name: "walkthrough".into(),
+        origin: DVec3::ZERO,
         objects,
         lights: vec![
             sun.expect("a constant view is valid").coloured(Vec3::new(2.6, 2.2, 1.6)),

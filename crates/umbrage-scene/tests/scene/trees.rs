@@ -3,7 +3,7 @@
 use glam::{DVec3, UVec2, Vec3};
 use proptest::prelude::*;
 use umbrage_scene::Light;
-use umbrage_scene::tree::{Colour, Cone, Distribution, Emission, Falloff, Mix, Product, Sight, Sum, Tree, Unshadowed};
+use umbrage_scene::tree::{Colour, Cone, Distribution, Emission, Falloff, Mix, Passing, Product, Sight, Sum, Tree};
 
 fn sight(distance: f32, degrees: f32, lit: f32) -> Sight {
     Sight { distance, cos_axis: degrees.to_radians().cos(), transmittance: Vec3::splat(lit) }
@@ -43,7 +43,7 @@ fn lamp() -> (Tree, impl Emission) {
         Tree::Product(vec![Tree::Distribution(bowl.clone()), Tree::colour(cool)]),
     ]);
     let composed =
-        Sum(Product(Product(Mix(cone, Colour(cool), Colour(warm)), falloff), Unshadowed), Product(bowl, Colour(cool)));
+        Sum(Product(Product(Mix(cone, Colour(cool), Colour(warm)), falloff), Passing), Product(bowl, Colour(cool)));
     (data, composed)
 }
 

@@ -1,6 +1,6 @@
 use umbrage_depth::DepthMap;
 use umbrage_sample::Disc;
-use umbrage_shadow::{Cone, Filter, Met, Probe, Query, Simd};
+use umbrage_shadow::{BiasCone, Filter, Met, Probe, Query, Simd};
 
 /// Percentage-closer soft shadows: the farther the occluders, the wider the blur.
 #[derive(Clone, Copy, Debug)]
@@ -8,7 +8,7 @@ pub struct Pcss {
     /// Where occluders are searched and the shadow is looked up.
     pub taps: Disc,
     /// Which depth is compared.
-    pub depth: Cone,
+    pub depth: BiasCone,
     /// Width of the light, in texels of the map.
     pub light: f32,
 }

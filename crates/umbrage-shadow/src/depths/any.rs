@@ -1,4 +1,4 @@
-use crate::{Biased, Cone, OnPlane, ReceiverDepth};
+use crate::{BiasCone, Biased, OnPlane, ReceiverDepth};
 use fearless_simd::{Simd, f32x16};
 use umbrage_plane::{DepthRange, Receiver, TexelRect, View};
 use umbrage_sample::Taps;
@@ -11,8 +11,8 @@ pub enum AnyDepth {
     Biased(Biased),
     /// [`OnPlane`].
     OnPlane(OnPlane),
-    /// [`Cone`].
-    Cone(Cone),
+    /// [`BiasCone`].
+    Cone(BiasCone),
 }
 
 impl ReceiverDepth for AnyDepth {
@@ -47,8 +47,8 @@ impl From<OnPlane> for AnyDepth {
     }
 }
 
-impl From<Cone> for AnyDepth {
-    fn from(depth: Cone) -> Self {
+impl From<BiasCone> for AnyDepth {
+    fn from(depth: BiasCone) -> Self {
         Self::Cone(depth)
     }
 }

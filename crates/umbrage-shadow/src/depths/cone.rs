@@ -4,7 +4,7 @@ use glam::{DVec2, IVec2};
 use umbrage_plane::{Bias, DepthRange, Receiver, TexelRect, View, floor_texel};
 use umbrage_sample::Taps;
 
-/// From where to where a [`Cone`] measures (B06-3).
+/// From where to where a [`BiasCone`] measures (B06-3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Radius {
     /// To the place in the texel that is read where its depth was taken: the centre, or its own offset in a stochastic map.
@@ -23,7 +23,7 @@ pub enum Radius {
 /// axial and of screen depth, but for rounding at the very tip (see `base`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Cone {
+pub struct BiasCone {
     /// Bias at the cone's tip, world units, from 0. A receiver exactly on a sample of the map wants the rounding of stored depths, some 10⁻⁶ of
     /// its distance; elsewhere the slope covers it.
     pub base: f32,
@@ -33,16 +33,16 @@ pub struct Cone {
     pub radius: Radius,
 }
 
-impl Default for Cone {
+impl Default for BiasCone {
     /// Base 0, slope 2, measured to the texel that is read.
     fn default() -> Self {
         Self { base: 0.0, slope: 2.0, radius: Radius::TexelCentre }
     }
 }
 
-umbrage_plane::builders!([] Cone { with_base base: f32, with_slope slope: f32, with_radius radius: Radius });
+umbrage_plane::builders!([] BiasCone { with_base base: f32, with_slope slope: f32, with_radius radius: Radius });
 
-impl Cone {
+impl BiasCone {
     /// The bias at a distance, both in world units (V62).
     #[inline(always)]
     pub fn bias(&self, radius: f32) -> f32 {
@@ -50,7 +50,7 @@ impl Cone {
     }
 }
 
-impl ReceiverDepth for Cone {
+impl ReceiverDepth for BiasCone {
     #[inline(always)]
     fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
         let tip = view.eye_to_texel(receiver.eye);

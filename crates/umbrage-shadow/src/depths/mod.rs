@@ -7,7 +7,7 @@ mod plane;
 
 pub use any::AnyDepth;
 pub use biased::{Biased, Spread};
-pub use cone::{Cone, Radius};
+pub use cone::{BiasCone, Radius};
 pub use plane::OnPlane;
 
 use fearless_simd::{Simd, f32x16};

@@ -1,15 +1,15 @@
 //! How the answers are combined: each filter is one way to ask a [`Query`](crate::Query).
 
 mod conditional;
+mod filtered_depth;
 pub mod integer_first;
-mod ordinary;
 mod pcf;
 mod soft;
 pub mod williams;
 
 pub use conditional::{Conditional, VirtualWhen};
+pub use filtered_depth::FilteredDepth;
 pub use integer_first::IntegerFirst;
-pub use ordinary::Ordinary;
 pub use pcf::Pcf;
-pub use soft::{Extent, Falloff, Opacity, Soft, Softness, factor};
+pub use soft::{MapRadius, OccluderFalloff, Opacity, Soft, Softness};
 pub use williams::Williams;

@@ -14,9 +14,9 @@ use umbrage_sample::{Jittered, Pattern};
 ///
 /// ```
 /// use umbrage_sample::Disc;
-/// use umbrage_shadow::{Cone, Pcf};
+/// use umbrage_shadow::{BiasCone, Pcf};
 ///
-/// let wide = Pcf::default().with_pattern(Disc::default()).with_depth(Cone::default()).with_min_size(2.0);
+/// let wide = Pcf::default().with_pattern(Disc::default()).with_depth(BiasCone::default()).with_min_size(2.0);
 /// assert_eq!(wide.res_factor, 3.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

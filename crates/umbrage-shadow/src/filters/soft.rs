@@ -1,4 +1,4 @@
-use crate::{Biased, Cone, Filter, Probe, Query, ReceiverDepth};
+use crate::{BiasCone, Biased, Filter, Probe, Query, ReceiverDepth};
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec2;
 use umbrage_depth::DepthMap;
@@ -7,22 +7,22 @@ use umbrage_sample::{Density, Disc};
 
 /// A radius on the map, from 0; +∞ is more than the map has. The unit is part of the type.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Extent {
+pub enum MapRadius {
     /// Texels.
     Texels(f32),
-    /// Share of the map's width and height.
-    Share(f32),
+    /// Fraction of the map's width and height.
+    Fraction(f32),
     /// World units on the plane square to the light's axis through the receiver.
     World(f32),
 }
 
-impl Extent {
+impl MapRadius {
     /// In texels along both axes.
     #[inline(always)]
     fn texels(self, view: &View, receiver: &Receiver) -> Vec2 {
         let texels = match self {
             Self::Texels(radius) => Vec2::splat(radius),
-            Self::Share(share) => view.size().as_vec2() * share,
+            Self::Fraction(share) => view.size().as_vec2() * share,
             Self::World(radius) => Vec2::splat(radius) / receiver.texel_world,
         };
         // Finite, so that differences of radii are.
@@ -37,9 +37,9 @@ pub enum Softness {
     /// within `max`. A disc light's own penumbra for one distance of occluders only (D-16).
     Between {
         /// Radius at contact.
-        min: Extent,
+        min: MapRadius,
         /// Largest radius and the search's.
-        max: Extent,
+        max: MapRadius,
     },
     /// Physical: the penumbra of a disc that stands for the light (EXT-4, D-16). Half a texel at contact.
     Light {
@@ -52,6 +52,13 @@ pub enum Softness {
 }
 
 impl Softness {
+    /// Burley's factor 1 − z̄/z_p, between 0 and 1, for occluders at a mean distance and a receiver at another; 0 for a receiver at or behind
+    /// the light (E-B4, V64).
+    #[inline(always)]
+    pub fn factor(mean: f32, distance: f32) -> f32 {
+        if distance > 0.0 { (1.0 - mean / distance).clamp(0.0, 1.0) } else { 0.0 }
+    }
+
     /// The search's radius in texels.
     #[inline(always)]
     fn search(self, view: &View, receiver: &Receiver, distance: f32) -> Vec2 {
@@ -68,7 +75,7 @@ impl Softness {
         match self {
             Self::Between { min, max } => {
                 let (min, max) = (min.texels(view, receiver), max.texels(view, receiver));
-                min + (max - min) * factor(mean, distance).powf(gamma)
+                min + (max - min) * Self::factor(mean, distance).powf(gamma)
             }
             Self::Light { radius, .. } => {
                 // Seen from the light, the half penumbra has the tangent ℓ/2·(1/ζ_o − 1/ζ_r); at the receiver it is ζ_r as wide.
@@ -82,15 +89,9 @@ impl Softness {
     }
 }
 
-/// Burley's factor 1 − z̄/z_p, between 0 and 1; 0 for a receiver at or behind the light (E-B4, V64).
-#[inline(always)]
-pub fn factor(mean: f32, distance: f32) -> f32 {
-    if distance > 0.0 { (1.0 - mean / distance).clamp(0.0, 1.0) } else { 0.0 }
-}
-
 /// How occluders count by their distance from the search's centre (B06-4).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Falloff {
+pub enum OccluderFalloff {
     /// From 1 at the centre in a straight line to `rim`, above 0 and at most 1, at the search's radius. Burley's rim is 0.1.
     Linear {
         /// Weight at the rim.
@@ -112,7 +113,7 @@ pub enum Falloff {
     Flat,
 }
 
-impl Falloff {
+impl OccluderFalloff {
     /// The weight at a share of the search's radius.
     #[inline(always)]
     pub fn weight(self, share: f32) -> f32 {
@@ -186,7 +187,7 @@ impl Mean {
 /// Soft shadows from one map: the mean distance of the occluders around a receiver sets how wide its shadow is blurred
 /// (Burley 2006; B06-4 to B06-8, B06-10).
 ///
-/// `depth` is compared in both passes: [`Cone`] is Burley's; a tangent plane or a constant bias does as well. Distances are measured from the
+/// `depth` is compared in both passes: [`BiasCone`] is Burley's; a tangent plane or a constant bias does as well. Distances are measured from the
 /// light: axial or Euclidean as the map stores them, and from the plane of the view's eye for directional lights (T-12). Texels outside the map are
 /// never occluders; where the view's rules say dark, it is dark whatever the opacity and whether an occluder was found or not (W92-6). The blur is never narrower than the receiver's own region, and no wider than a quarter of the map to each side.
 ///
@@ -194,7 +195,7 @@ impl Mean {
 /// point (E-B2), *no occluder* is not a depth of 0 (E-B3), the factor is clamped (E-B4), slope and radius are in world units (E-B5, E-B6).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Soft<D = Cone> {
+pub struct Soft<D = BiasCone> {
     /// How wide the blur is.
     pub softness: Softness,
     /// Where occluders are searched. Burley's is dense in the middle.
@@ -202,7 +203,7 @@ pub struct Soft<D = Cone> {
     /// Where the shadow is looked up. Only an even density filters as a disc does.
     pub blur: Disc,
     /// How occluders count.
-    pub falloff: Falloff,
+    pub falloff: OccluderFalloff,
     /// Which depth is compared.
     pub depth: D,
     /// Shapes the blur: the factor of [`Softness::Between`] is raised to this power. 1 leaves it alone.
@@ -218,11 +219,11 @@ impl Default for Soft {
     /// Burley's: 32 and 32 taps, from half a texel to 16 texels.
     fn default() -> Self {
         Self {
-            softness: Softness::Between { min: Extent::Texels(0.5), max: Extent::Texels(16.0) },
+            softness: Softness::Between { min: MapRadius::Texels(0.5), max: MapRadius::Texels(16.0) },
             search: Disc::default().with_density(Density::Centred),
             blur: Disc::default(),
-            falloff: Falloff::Linear { rim: 0.1 },
-            depth: Cone::default(),
+            falloff: OccluderFalloff::Linear { rim: 0.1 },
+            depth: BiasCone::default(),
             radius_gamma: 1.0,
             opacity: Opacity::FULL,
             rescue: false,
@@ -234,7 +235,7 @@ umbrage_plane::builders!([D] Soft<D> {
     with_softness softness: Softness,
     with_search search: Disc,
     with_blur blur: Disc,
-    with_falloff falloff: Falloff,
+    with_falloff falloff: OccluderFalloff,
     with_radius_gamma radius_gamma: f32,
     with_opacity opacity: Opacity,
     with_rescue rescue: bool,

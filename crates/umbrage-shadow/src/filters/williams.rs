@@ -134,13 +134,14 @@ impl Filter for Williams {
         }
         match self.lookup {
             Lookup::Bilinear(guard) if view.locate(at) != Where::Outside => {
-                if compared > bilinear(query.map(), at, guard, receiver) {
-                    // What the four texels stop in all: everything, unless the map is deep.
-                    let (texels, fraction) = four(view, at);
-                    lerp(texels.map(|texel| query.texel(texel).dark(f32::INFINITY)), fraction)
+                let dark = compared > bilinear(query.map(), at, guard, receiver);
+                let (texels, fraction) = four(view, at);
+                let surfaces = texels.map(|texel| query.texel(texel));
+                if dark && query.map().translucent().is_some() {
+                    // What the surfaces of the four texels stop in all.
+                    lerp(surfaces.map(|surfaces| surfaces.dark(f32::INFINITY)), fraction)
                 } else {
-                    query.count(4);
-                    0.0
+                    f32::from(u8::from(dark))
                 }
             }
             // Outside the map there is nothing to interpolate, only what a neighbour may store there.
@@ -199,7 +200,9 @@ fn far_depth(view: &View) -> f32 {
 ///
 /// It takes homogeneous points; divide by w afterwards ([`transform`]).
 pub fn observer_to_light(observer: &View, light: &View) -> DMat4 {
-    light.world_to_screen() * observer.world_to_screen().inverse()
+    // From eye to eye first: far from the world's origin the two places cancel there, before anything is projected.
+    let eye_to_eye = light.world_to_eye() * observer.eye_to_world();
+    light.eye_to_screen() * eye_to_eye * observer.eye_to_screen().inverse()
 }
 
 /// Subtracts `bias` (units of z_s) from the z that comes out, inside the matrix: row 3 less bias times row 4 (W78-11, D-8, V39).

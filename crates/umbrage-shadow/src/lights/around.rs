@@ -91,7 +91,7 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
                 let key = key.region(point.region);
                 *fraction = match self.evaluate {
                     Evaluate::Own => {
-                        let own = nearest(&self.maps, point.position.as_dvec3() - eye);
+                        let own = nearest(&self.maps, point.position - eye);
                         self.ask(simd, &Face { maps: &self.maps, own }, channel, point, key)
                     }
                     Evaluate::Every => {

@@ -71,12 +71,12 @@ impl<P: Pattern> LatLong<P> {
     /// A surface point on the map; corners on the far side of the date line are moved to this side.
     fn receiver(&self, at: &SurfacePoint) -> Receiver {
         let size = self.map.view().size();
-        let from_eye = at.position.as_dvec3() - self.eye;
+        let from_eye = at.position - self.eye;
         let distance = from_eye.length();
         let centre = texel(from_eye, size);
         let width = f64::from(size.x);
-        let corners = at.corners.map(|corner| {
-            let mut place = texel(corner.as_dvec3() - self.eye, size);
+        let corners = at.corner_offsets.map(|offset| {
+            let mut place = texel(from_eye + offset.as_dvec3(), size);
             place.x -= ((place.x - centre.x) / width).round() * width;
             place.as_vec2()
         });

@@ -12,6 +12,7 @@ pub use tags::Tags;
 
 use crate::surfaces::Channel;
 use glam::Vec3;
+use std::sync::Arc;
 use umbrage_plane::SurfacePoint;
 use umbrage_sample::Key;
 
@@ -46,6 +47,29 @@ pub trait Shadow: Send + Sync {
         out[0]
     }
 }
+
+/// [`Shadow`] of something that stands for another one.
+macro_rules! forward {
+    ($type:ty) => {
+        impl<T: Shadow + ?Sized> Shadow for $type {
+            fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
+                (**self).fractions(at, key, out);
+            }
+
+            fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
+                (**self).transmittances(at, key, fractions, out);
+            }
+
+            fn fraction(&self, at: &SurfacePoint, key: Key) -> f32 {
+                (**self).fraction(at, key)
+            }
+        }
+    };
+}
+
+forward!(&T);
+forward!(Box<T>);
+forward!(Arc<T>);
 
 /// A light that casts no shadow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3, UVec2, Vec3};
 use umbrage_depth::Raw;
 use umbrage_plane::{Kind, Receiver, Sampling, SurfacePoint, View};
 use umbrage_sample::Disc;
-use umbrage_shadow::{Cone, Pcf, Radius, Soft, presets};
+use umbrage_shadow::{BiasCone, Pcf, Radius, Soft, presets};
 
 /// A random view: parallel or not, of screen or axial depth, stochastic or not, its texels not square.
 fn random_view(i: u32) -> View {
@@ -35,12 +35,12 @@ fn random_plane(i: u32, slopes: std::ops::Range<f32>) -> Option<(Raw, Receiver)>
     slopes.contains(&seen.slope).then_some((filled, seen))
 }
 
-fn soft(depth: Cone) -> Soft {
-    presets::burley().with_softness(between(1.0, 9.0)).with_depth(depth).with_rescue(true)
+fn soft(depth: BiasCone) -> Soft {
+    presets::burley().filter.with_softness(between(1.0, 9.0)).with_depth(depth).with_rescue(true)
 }
 
 /// Of planes that stand alone: how many, and how many a cone darkens anywhere.
-fn darkened(slopes: std::ops::Range<f32>, cone: impl Fn(&Receiver) -> Cone) -> (u32, u32) {
+fn darkened(slopes: std::ops::Range<f32>, cone: impl Fn(&Receiver) -> BiasCone) -> (u32, u32) {
     let (mut all, mut dark) = (0, 0);
     for i in 0..6000 {
         let Some((plane, receiver)) = random_plane(i, slopes.clone()) else { continue };
@@ -59,12 +59,12 @@ fn darkened(slopes: std::ops::Range<f32>, cone: impl Fn(&Receiver) -> Cone) -> (
 #[test]
 fn d_15_b06_3_planes_within_the_slope_are_free_of_false_shadow() {
     for slope in [0.5, 1.0, 2.0] {
-        let (all, dark) = darkened(0.0..0.999 * slope, |_| Cone::default().with_slope(slope));
+        let (all, dark) = darkened(0.0..0.999 * slope, |_| BiasCone::default().with_slope(slope));
         assert!(all > 400, "{all}");
         assert_eq!(dark, 0, "slope {slope}: of {all} planes");
     }
     // The printed radius needs a base of τ·tanθ/√2 besides.
-    let nominal = |base| Cone::default().with_base(base).with_radius(Radius::Nominal);
+    let nominal = |base| BiasCone::default().with_base(base).with_radius(Radius::Nominal);
     let (all, dark) = darkened(1.0..1.998, |_| nominal(0.0));
     println!("nominal radius, no base: {dark} of {all} planes");
     assert!(dark > all / 20, "{dark} of {all}");
@@ -95,7 +95,7 @@ fn d_15_b06_1_a_tiny_base_covers_rounding_at_the_tip() {
             view.decode().zeta(seen.depth + 3.0 * (seen.depth.next_up() - seen.depth)) - view.decode().zeta(seen.depth);
         let rounding = if view.kind() == Kind::Screen { rounding as f32 } else { 1e-6 * seen.depth };
         for (count, base) in dark.iter_mut().zip([0.0, rounding]) {
-            *count += u32::from(ask(&soft(Cone::default().with_base(base)), &filled, &seen) > 0.0);
+            *count += u32::from(ask(&soft(BiasCone::default().with_base(base)), &filled, &seen) > 0.0);
         }
     }
     println!("receivers on the map's own samples: {} dark of {all}, {} with a base", dark[0], dark[1]);
@@ -105,7 +105,7 @@ fn d_15_b06_1_a_tiny_base_covers_rounding_at_the_tip() {
 
 #[test]
 fn v62_d_15_steeper_planes_shadow_themselves() {
-    let slope = |slope| Cone::default().with_slope(slope);
+    let slope = |slope| BiasCone::default().with_slope(slope);
     let (all, dark) = darkened(1.2..1.9, |_| slope(1.0));
     println!("slope 1 beyond 45°: {dark} of {all} planes");
     assert!(dark > all / 2, "{dark} of {all}");

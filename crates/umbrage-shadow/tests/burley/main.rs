@@ -6,8 +6,8 @@ use umbrage_plane::{Bias, Footprint, Kind, Receiver, Rules, SurfacePoint, TexelR
 use umbrage_sample::{Density, Disc, Key, Pattern, each_tap};
 use umbrage_shadow::as_printed::{BurleyListing, Sample, sample_blur, sample_depth, soft_radius, soft_shadow};
 use umbrage_shadow::{
-    Biased, Cone, Counters, Extent, Falloff, Filter, Opacity, Pcf, Probe, Radius, ReceiverDepth, ShadowMap, Soft,
-    Softness, factor, presets,
+    BiasCone, Biased, Counters, Filter, MapRadius, OccluderFalloff, Opacity, Pcf, Probe, Radius, ReceiverDepth,
+    ShadowMap, Soft, Softness, presets,
 };
 
 mod cone;
@@ -51,12 +51,12 @@ fn still(num_samples: u32, density: Density) -> Disc {
 }
 
 fn between(min: f32, max: f32) -> Softness {
-    Softness::Between { min: Extent::Texels(min), max: Extent::Texels(max) }
+    Softness::Between { min: MapRadius::Texels(min), max: MapRadius::Texels(max) }
 }
 
 #[test]
 fn v62_b06_1_the_cone_corrected_and_as_printed_e_b1_e_b5() {
-    let cone = Cone::default().with_base(0.1);
+    let cone = BiasCone::default().with_base(0.1);
     assert_eq!(cone.slope, 2.0);
     let listing = BurleyListing { base: 0.1, slope: 2.0, ..BurleyListing::default() };
     assert_eq!(BurleyListing::default().slope, 1.0);
@@ -79,18 +79,21 @@ fn v62_b06_1_the_cone_corrected_and_as_printed_e_b1_e_b5() {
 
 #[test]
 fn v61_b06_4_weights_of_sixteen_search_taps() {
-    let (mut sum, burley) = (0.0, Falloff::Linear { rim: 0.1 });
+    let (mut sum, burley) = (0.0, OccluderFalloff::Linear { rim: 0.1 });
     let region = Footprint::boxed(Vec2::splat(50.0), Vec2::splat(8.0));
     each_tap(&still(16, Density::Centred), &region, KEY, |tap| {
         sum += burley.weight((tap.at - region.centre).length() / 8.0);
     });
     assert!((sum - 9.25).abs() < 1e-5, "{sum}");
-    for falloff in [burley, Falloff::Smooth { rim: 0.1 }, Falloff::Flat] {
+    for falloff in [burley, OccluderFalloff::Smooth { rim: 0.1 }, OccluderFalloff::Flat] {
         let weights: Vec<f32> = (0..=100).map(|i| falloff.weight(i as f32 * 0.01)).collect();
         assert!(weights.windows(2).all(|pair| pair[1] <= pair[0]) && weights[100] > 0.09, "{falloff:?}");
         assert_eq!(weights[0], 1.0);
     }
-    assert!((burley.weight(1.0) - 0.1).abs() < 1e-6 && (Falloff::Smooth { rim: 0.1 }.weight(1.0) - 0.1).abs() < 1e-6);
+    assert!(
+        (burley.weight(1.0) - 0.1).abs() < 1e-6
+            && (OccluderFalloff::Smooth { rim: 0.1 }.weight(1.0) - 0.1).abs() < 1e-6
+    );
 }
 
 #[test]
@@ -128,42 +131,45 @@ fn v63_b06_4_b06_9_the_mean_of_a_hand_made_map() {
         hit.map_or(f32::INFINITY, |(_, depth)| *depth)
     });
     let receiver = facing(&view, 10.0, Vec2::splat(32.5));
-    let plain = presets::fernando(Bias::ZERO);
+    let plain = presets::fernando(Bias::ZERO).filter;
     let filter =
         |density, falloff| plain.with_softness(between(0.5, 8.0)).with_search(still(4, density)).with_falloff(falloff);
-    let weighted = mean_found(filter(Density::Centred, Falloff::Linear { rim: 0.1 }), &filled, &receiver);
+    let weighted = mean_found(filter(Density::Centred, OccluderFalloff::Linear { rim: 0.1 }), &filled, &receiver);
     // Weights 1, .55, .325 by the radii 0, 4, 6 of 8.
     let wanted = (5.0 + 8.0 * 0.55 + 3.0 * 0.325) / 1.875;
     assert!((weighted - wanted).abs() < 1e-4, "{weighted}, want {wanted}");
-    let mean = mean_found(filter(Density::Centred, Falloff::Flat), &filled, &receiver);
+    let mean = mean_found(filter(Density::Centred, OccluderFalloff::Flat), &filled, &receiver);
     assert!((mean - 5.333_333).abs() < 1e-4, "{mean}");
     // The printed search over the same map finds the same.
     let listing = BurleyListing { base: 0.0, slope: 0.0, samples: 4 };
     let samples = [(0.0, 5.0), (4.0, 8.0), (2.0, 20.0), (6.0, 3.0)].map(|(radius, depth)| Sample { radius, depth });
     assert!((f64::from(sample_depth(&listing, 10.0, 8.0, samples)) - wanted).abs() < 1e-5);
-    assert_eq!((plain.search.density, plain.falloff), (Density::Uniform, Falloff::Flat));
+    assert_eq!((plain.search.density, plain.falloff), (Density::Uniform, OccluderFalloff::Flat));
 }
 
 #[test]
 fn v64_b06_6_radii_corrected_and_as_printed_e_b4() {
     for (mean, wanted) in [(6.0, 4.2), (10.0, 1.0), (2.5, 7.0), (12.0, 1.0)] {
-        assert!((1.0 + 8.0 * factor(mean, 10.0) - wanted).abs() < 1e-6);
+        assert!((1.0 + 8.0 * Softness::factor(mean, 10.0) - wanted).abs() < 1e-6);
     }
     assert!(
         (soft_radius(1.0, 9.0, 12.0, 10.0) + 0.6).abs() < 1e-6 && (soft_radius(1.0, 9.0, 6.0, 10.0) - 4.2).abs() < 1e-6
     );
     for (mean, wanted) in [(10.0, 0.1), (9.0, 0.29), (7.5, 0.575), (5.0, 1.05), (2.5, 1.525)] {
-        assert!((0.1 + 1.9 * factor(mean, 10.0) - wanted).abs() < 1e-6);
+        assert!((0.1 + 1.9 * Softness::factor(mean, 10.0) - wanted).abs() < 1e-6);
         assert!((soft_radius(0.1, 2.0, mean, 10.0) - wanted).abs() < 1e-6);
     }
     // A receiver at or behind the light, and one at depth 0 (E-B4).
-    assert_eq!((factor(5.0, 0.0), factor(5.0, -1.0), soft_radius(1.0, 9.0, 5.0, 0.0)), (0.0, 0.0, 1.0));
+    assert_eq!(
+        (Softness::factor(5.0, 0.0), Softness::factor(5.0, -1.0), soft_radius(1.0, 9.0, 5.0, 0.0)),
+        (0.0, 0.0, 1.0)
+    );
     let view = lamp(64);
     let receiver = facing(&view, 10.0, Vec2::splat(32.2));
     for nothing in [f32::INFINITY, 12.0, 10.0] {
         let empty = map(&view, |_| nothing);
-        assert_eq!(ask(&presets::burley(), &empty, &receiver), 0.0);
-        assert_eq!(ask(&presets::burley().with_rescue(true), &empty, &receiver), 0.0);
+        assert_eq!(ask(&presets::burley().filter, &empty, &receiver), 0.0);
+        assert_eq!(ask(&presets::burley().filter.with_rescue(true), &empty, &receiver), 0.0);
     }
 }
 
@@ -174,7 +180,7 @@ fn e_b1_e_b9_the_printed_whole_shadows_a_lit_plane_and_a_near_occluder_is_lost()
     let listing = BurleyListing::default();
     let at = Vec3::new(32.2, 32.2, 10.0);
     assert!(soft_shadow(&listing, &plane, at, 1.0, 9.0) > 0.9);
-    assert_eq!(ask(&presets::burley(), &plane, &facing(&view, 10.0, Vec2::splat(32.2))), 0.0);
+    assert_eq!(ask(&presets::burley().filter, &plane, &facing(&view, 10.0, Vec2::splat(32.2))), 0.0);
     // With negative parameters it is right.
     assert_eq!(soft_shadow(&BurleyListing { slope: -0.1, ..listing }, &plane, at, 1.0, 9.0), 0.0);
     assert_eq!(soft_shadow(&listing, &map(&view, |_| f32::INFINITY), at, 1.0, 9.0), 0.0);
@@ -201,8 +207,10 @@ fn worst(filter: &Soft<Biased>, view: &View, occluder: f64, radius: f64) -> f64 
 fn v65_d_16_the_light_s_own_penumbra_and_burley_s_t_12() {
     // A light of diameter 2, an occluder at 5, a receiver at 10: half a penumbra is 1 world unit, .1 in tangents, 51.2 texels of 1024.
     let samples = |density| Disc::default().with_num_samples(4096).with_density(density);
-    let base =
-        presets::fernando(Bias::ZERO).with_search(samples(Density::Centred)).with_blur(samples(Density::Uniform));
+    let base = presets::fernando(Bias::ZERO)
+        .filter
+        .with_search(samples(Density::Centred))
+        .with_blur(samples(Density::Uniform));
     let light = base.with_softness(Softness::Light { radius: 1.0, nearest: 4.0 });
     for kind in [Kind::Axial, Kind::Screen] {
         let view = lamp(1024).with_kind(kind);
@@ -229,29 +237,33 @@ fn b06_6_units_of_radii_agree_and_wide_blurs_are_cut_off() {
     let view = lamp(256).with_size(UVec2::new(256, 128)).unwrap();
     let caster = map(&view, |texel| if texel.x + texel.y > 190 { 4.0 } else { f32::INFINITY });
     let receiver = facing(&view, 10.0, Vec2::new(128.3, 64.4));
-    let answer = |extent: fn(f32) -> Extent, size: f32| {
+    let answer = |extent: fn(f32) -> MapRadius, size: f32| {
         let softness = Softness::Between { min: extent(0.1 * size), max: extent(size) };
-        ask(&presets::burley().with_softness(softness), &caster, &receiver)
+        ask(&presets::burley().filter.with_softness(softness), &caster, &receiver)
     };
     // 1/16 of the map is 16 columns and 8 rows; a texel is 20/256 wide and 20/128 high.
-    let (share, world) = (answer(Extent::Share, 1.0 / 16.0), answer(Extent::World, 1.25));
+    let (share, world) = (answer(MapRadius::Fraction, 1.0 / 16.0), answer(MapRadius::World, 1.25));
     assert!(share > 0.0 && share < 1.0, "{share}");
     assert_eq!(share, world);
     let square = lamp(256);
     let caster = map(&square, |texel| if texel.x + texel.y > 250 { 4.0 } else { f32::INFINITY });
     let receiver = facing(&square, 10.0, Vec2::splat(128.3));
-    let answer = |softness| ask(&presets::burley().with_softness(softness), &caster, &receiver);
-    let sized = |extent: fn(f32) -> Extent, size: f32| Softness::Between { min: extent(0.5 * size), max: extent(size) };
-    let texels = answer(sized(Extent::Texels, 16.0));
+    let answer = |softness| ask(&presets::burley().filter.with_softness(softness), &caster, &receiver);
+    let sized =
+        |extent: fn(f32) -> MapRadius, size: f32| Softness::Between { min: extent(0.5 * size), max: extent(size) };
+    let texels = answer(sized(MapRadius::Texels, 16.0));
     assert!(texels > 0.0 && texels < 1.0);
-    assert_eq!((texels, texels), (answer(sized(Extent::Share, 1.0 / 16.0)), answer(sized(Extent::World, 1.25))));
+    assert_eq!(
+        (texels, texels),
+        (answer(sized(MapRadius::Fraction, 1.0 / 16.0)), answer(sized(MapRadius::World, 1.25)))
+    );
     assert_eq!(answer(between(1e9, 1e9)), answer(between(64.0, 64.0)));
     assert_eq!(answer(between(f32::INFINITY, f32::INFINITY)), answer(between(64.0, 64.0)));
 }
 
 #[test]
 fn b06_10_opacity_by_distance_is_monotone_and_off_by_default() {
-    assert_eq!(presets::burley().opacity, Opacity::FULL);
+    assert_eq!(presets::burley().filter.opacity, Opacity::FULL);
     for (near, far, gamma) in [(1.0, 0.2, 1.0), (0.1, 0.9, 1.0), (1.0, 0.0, 2.5), (0.3, 1.0, 0.4)] {
         let opacity = Opacity::default().with_near(near).with_far(far).with_fade(8.0).with_gamma(gamma);
         let shares: Vec<f32> = (-4..40).map(|step| opacity.at(step as f32 * 0.5)).collect();
@@ -266,7 +278,7 @@ fn b06_10_opacity_by_distance_is_monotone_and_off_by_default() {
     // Through the filter: an occluder 3 world units away, over half a fade of 6, and no more of it inside the cone than its tip.
     let view = lamp(64);
     let opacity = Opacity::default().with_near(1.0).with_far(0.0).with_fade(6.0).with_gamma(1.0);
-    let filter = presets::burley().with_opacity(opacity).with_softness(between(0.5, 2.0));
+    let filter = presets::burley().filter.with_opacity(opacity).with_softness(between(0.5, 2.0));
     let found = ask(&filter, &map(&view, |_| 7.0), &facing(&view, 10.0, Vec2::splat(32.2)));
     assert!((found - 0.5).abs() < 1e-5, "{found}");
 }
@@ -279,17 +291,18 @@ fn b06_5_b06_8_b06_13_sample_counts_are_their_own_and_contact_is_a_constant_radi
     let counted = |search, blur| {
         let mut counters = Counters::default();
         let filter = presets::burley()
-            .with_search(presets::burley().search.with_num_samples(search))
-            .with_blur(presets::burley().blur.with_num_samples(blur));
+            .filter
+            .with_search(presets::burley().filter.search.with_num_samples(search))
+            .with_blur(presets::burley().filter.blur.with_num_samples(blur));
         probe(&filter, &caster, &receiver, KEY, &mut counters);
         counters.lookups
     };
     assert_eq!([(32, 32), (5, 64), (100, 1), (0, 0)].map(|(search, blur)| counted(search, blur)), [64, 69, 101, 2]);
-    assert_eq!((presets::burley().search.num_samples, presets::burley().blur.num_samples), (32, 32));
+    assert_eq!((presets::burley().filter.search.num_samples, presets::burley().filter.blur.num_samples), (32, 32));
     // The picture of before: a constant radius, a constant bias. Soft with min = max is the same share wherever it finds an occluder.
     let depth = Biased::constant(Bias::World(0.1));
     let before = Pcf::default().with_pattern(Disc::default()).with_depth(depth).with_res_factor(0.0).with_min_size(8.0);
-    let after = presets::fernando(Bias::World(0.1)).with_softness(between(8.0, 8.0));
+    let after = presets::fernando(Bias::World(0.1)).filter.with_softness(between(8.0, 8.0));
     for i in 0..200 {
         let receiver = facing(&view, 10.0, Vec2::new(50.0 + 0.1 * i as f32, 64.0));
         let key = KEY.region(i);
@@ -306,6 +319,7 @@ fn e_b9_what_only_the_blur_meets_is_kept_by_the_rescue() {
     let lone = map(&view, |texel| if texel == IVec2::new(34, 34) { 4.0 } else { f32::INFINITY });
     let receiver = facing(&view, 10.0, Vec2::splat(32.5));
     let filter = presets::burley()
+        .filter
         .with_softness(between(4.0, 4.0))
         .with_search(still(8, Density::Centred))
         .with_blur(still(8, Density::Uniform));
@@ -324,7 +338,7 @@ fn e_b9_what_only_the_blur_meets_is_kept_by_the_rescue() {
 fn w92_6_e_b7_the_edge_of_a_spot_is_dark_whatever_the_opacity() {
     let faint = Opacity::default().with_near(0.25).with_far(0.25).with_fade(1.0).with_gamma(1.0);
     for rescue in [false, true] {
-        let filter = presets::burley().with_softness(between(2.0, 4.0)).with_opacity(faint).with_rescue(rescue);
+        let filter = presets::burley().filter.with_softness(between(2.0, 4.0)).with_opacity(faint).with_rescue(rescue);
         let answer = |rules, x: f32, depth: f32| {
             let view = lamp(64).with_rules(rules);
             ask(&filter, &map(&view, |_| depth), &facing(&view, 10.0, Vec2::new(x, 32.5)))
@@ -344,7 +358,7 @@ fn t_13_rotation_differs_by_region_and_is_still_between_frames() {
     let view = lamp(128);
     let caster = map(&view, |texel| if (texel.x * 7 + texel.y * 3) % 5 < 2 { 4.0 } else { f32::INFINITY });
     let receiver = facing(&view, 10.0, Vec2::splat(64.2));
-    let turned = presets::burley();
+    let turned = presets::burley().filter;
     let unturned = turned.with_search(turned.search.with_rotate(false)).with_blur(turned.blur.with_rotate(false));
     let all =
         |filter: &Soft| (0..64).map(|i| probe(filter, &caster, &receiver, KEY.region(i), &mut ())).collect::<Vec<_>>();
@@ -360,8 +374,10 @@ fn b06_12_any_store_feeds_it() {
     let view = lamp(128);
     let midpoints = map(&view, |texel| if texel.x < 64 { 5.0 } else { f32::INFINITY });
     for filter in [
-        presets::burley(),
-        presets::burley().with_depth(Cone::default().with_base(0.1).with_slope(0.5).with_radius(Radius::Nominal)),
+        presets::burley().filter,
+        presets::burley()
+            .filter
+            .with_depth(BiasCone::default().with_base(0.1).with_slope(0.5).with_radius(Radius::Nominal)),
     ] {
         assert_eq!(ask(&filter, &midpoints, &facing(&view, 10.0, Vec2::new(30.3, 64.0))), 1.0);
         assert_eq!(ask(&filter, &midpoints, &facing(&view, 4.0, Vec2::new(30.3, 64.0))), 0.0);

@@ -78,22 +78,23 @@ fn v55_wm94_5_mixed_texels_ask_the_plane_and_equality_is_lit_there() {
     let plane = exact.plane(&view);
     let at = |x, y| plane.at(view.sampling().position(IVec2::new(x, y)));
     assert_eq!([at(7, 7), at(8, 7), at(7, 8), at(8, 8)], [4.75, 5.0, 8.75, 9.0]);
-    let strictly = presets::wang_molnar94().with_plane(OnPlane::default());
-    for filter in [strictly, presets::wang_molnar94()] {
+    let strictly = presets::wang_molnar94().filter.with_plane(OnPlane::default());
+    for filter in [strictly, presets::wang_molnar94().filter] {
         let (fraction, counters) = probed(&filter, &map(&view, second), &exact);
         assert_eq!((fraction, counters.virtual_sampled), (0.0, 1));
     }
     // The paper's numbers with .1, whose rounding the slack covers. Plain comparison says a half.
     let tenth = tilted(&view, DVec2::new(8.0, 7.7625), 6.0, DVec2::new(0.1, 4.0));
-    assert_eq!(probed(&presets::wang_molnar94(), &map(&view, second), &tenth).0, 0.0);
-    let never = presets::wang_molnar94().with_when(VirtualWhen::Never);
+    assert_eq!(probed(&presets::wang_molnar94().filter, &map(&view, second), &tenth).0, 0.0);
+    let never = presets::wang_molnar94().filter.with_when(VirtualWhen::Never);
     assert_eq!(probed(&never, &map(&view, second), &tenth).0, 0.5);
     // A quarter of the texels really hide it.
     let hidden = |texel| if texel == IVec2::new(7, 7) { 3.0 } else { second(texel) };
-    assert_eq!(probed(&presets::wang_molnar94(), &map(&view, hidden), &tenth).0, 0.25);
+    assert_eq!(probed(&presets::wang_molnar94().filter, &map(&view, hidden), &tenth).0, 0.25);
     // All agree: no plane is fitted.
     for (depth, wanted) in [(5.0, 0.0), (9.5, 1.0)] {
-        let (fraction, counters) = probed(&presets::wang_molnar94(), &map(&view, second), &Receiver { depth, ..tenth });
+        let (fraction, counters) =
+            probed(&presets::wang_molnar94().filter, &map(&view, second), &Receiver { depth, ..tenth });
         assert_eq!((fraction, counters.virtual_sampled), (wanted, 0), "{depth}");
     }
 }
@@ -125,7 +126,7 @@ proptest! {
         });
         let receiver = tilted(&view, DVec2::new(8.0 + x, 8.0 + y), f64::from(depth), DVec2::new(0.3, -0.2));
         let plane = OnPlane::default().with_bias(Bias::World(bias)).with_slack(1.0);
-        let (fraction, counters) = probed(&presets::wang_molnar94().with_plane(plane), &filled, &receiver);
+        let (fraction, counters) = probed(&presets::wang_molnar94().filter.with_plane(plane), &filled, &receiver);
         let compared = receiver.nearer(&view, Bias::World(bias));
         let (min, max) = (stored.into_iter().fold(f32::INFINITY, f32::min), stored.into_iter().fold(0.0, f32::max));
         prop_assert_eq!(counters.virtual_sampled == 1, min < compared && compared <= max);
@@ -148,7 +149,7 @@ fn weights<P: Pattern>(filter: &Conditional<P>, centre: Vec2, half: Vec2) -> Vec
 
 #[test]
 fn wm94_6_nearby_texels_which_and_how_many() {
-    let nearest = presets::wang_molnar94();
+    let nearest = presets::wang_molnar94().filter;
     let centre = Vec2::new(20.3, 21.6);
     let boxed = |n: u32| nearest.with_min_size(0.5 * n as f32);
     let region = nearest.with_res_factor(1.0);
@@ -170,7 +171,7 @@ fn wm94_6_nearby_texels_which_and_how_many() {
 
 #[test]
 fn wm94_6_tent_weighs_the_nearest_four_as_bilinear_interpolation_does() {
-    let Conditional { res_factor, min_size, plane, min_cos, when, dark_backs, .. } = presets::wang_molnar94();
+    let Conditional { res_factor, min_size, plane, min_cos, when, dark_backs, .. } = presets::wang_molnar94().filter;
     let filter = Conditional::default()
         .with_pattern(Tent)
         .with_res_factor(res_factor)
@@ -200,10 +201,10 @@ fn wm94_13_one_bias_serves_both_tests() {
     let at = tilted(&view, DVec2::new(8.2, 8.1), 6.0, DVec2::new(0.5, 0.25));
     let own = sheet(&view, &at);
     let pushed = Receiver { depth: 6.5, eye: at.eye - DVec3::Z * 0.5, ..at };
-    let with = |bias| presets::wang_molnar94().with_plane(OnPlane::default().with_bias(bias).with_slack(1.0));
+    let with = |bias| presets::wang_molnar94().filter.with_plane(OnPlane::default().with_bias(bias).with_slack(1.0));
     assert_eq!(probed(&with(Bias::World(0.4)), &own, &pushed).0, 1.0);
     assert_eq!(probed(&with(Bias::World(0.6)), &own, &pushed).0, 0.0);
-    assert_eq!(presets::wang_molnar94().plane.bias, Bias::ZERO);
+    assert_eq!(presets::wang_molnar94().filter.plane.bias, Bias::ZERO);
 }
 
 #[test]
@@ -218,7 +219,7 @@ fn wm94_13_only_sheets_and_no_planes_is_percentage_closer_filtering() {
             let receiver = Receiver { footprint: Footprint::boxed(receiver.footprint.centre, half), ..receiver };
             let plane = OnPlane::default().with_bias(bias);
             let when = VirtualWhen::Never;
-            let ours = presets::wang_molnar94().with_res_factor(1.5).with_plane(plane).with_when(when);
+            let ours = presets::wang_molnar94().filter.with_res_factor(1.5).with_plane(plane).with_when(when);
             let depth = Biased::constant(bias);
             let theirs =
                 Pcf::default().with_pattern(EveryTexel).with_depth(depth).with_res_factor(1.5).with_min_size(1.0);
@@ -234,7 +235,7 @@ fn wm94_13_only_sheets_and_no_planes_is_percentage_closer_filtering() {
         let plane = OnPlane::default().with_bias(Bias::World(0.25));
         let depth = Biased::constant(Bias::World(0.25));
         let theirs = Pcf::default().with_pattern(EveryTexel).with_depth(depth).with_res_factor(0.0).with_min_size(1.0);
-        let ours = presets::wang_molnar94().with_plane(plane);
+        let ours = presets::wang_molnar94().filter.with_plane(plane);
         assert_eq!(probed(&ours, &steps, &at).0, probed(&theirs, &steps, &at).0);
     }
 }
@@ -245,11 +246,11 @@ fn wm94_15_always_fails_where_the_tangent_plane_climbs_past_its_occluders() {
     let view = sun(16);
     let second = map(&view, |_| 8.0);
     let at = tilted(&view, DVec2::new(8.0, 8.0), 7.0, DVec2::new(4.0, 0.0));
-    assert!(at.facing > presets::wang_molnar94().min_cos);
+    assert!(at.facing > presets::wang_molnar94().filter.min_cos);
     for (when, wanted, asked) in
         [(VirtualWhen::Mixed, 0.0, 0), (VirtualWhen::Always, 0.5, 1), (VirtualWhen::Never, 0.0, 0)]
     {
-        let (fraction, counters) = probed(&presets::wang_molnar94().with_when(when), &second, &at);
+        let (fraction, counters) = probed(&presets::wang_molnar94().filter.with_when(when), &second, &at);
         assert_eq!((fraction, counters.virtual_sampled), (wanted, asked), "{when:?}");
     }
 }
@@ -260,15 +261,17 @@ fn wm94_4_t_8_backs_are_shading_s_business_unless_they_are_dark_at_once() {
     let second = map(&view, |_| 6.0);
     let front = tilted(&view, DVec2::new(8.0, 8.0), 6.0, DVec2::new(0.5, 0.0));
     let back = Receiver { facing: -front.facing, normal: -front.normal, ..front };
-    let dark_backs = presets::wang_molnar94().with_dark_backs(true);
+    let dark_backs = presets::wang_molnar94().filter.with_dark_backs(true);
     // On its own second surface a back is lit by depth: shading with max(N·L, 0) must darken it, and |N·L| would not.
-    assert_eq!(probed(&presets::wang_molnar94(), &second, &back).0, 0.0);
+    assert_eq!(probed(&presets::wang_molnar94().filter, &second, &back).0, 0.0);
     assert_eq!(probed(&dark_backs, &second, &back).0, 1.0);
     assert_eq!(probed(&dark_backs, &second, &Receiver { facing: 0.0, ..back }).0, 1.0);
     assert_eq!(probed(&dark_backs, &second, &front).0, 0.0);
     // A plane is the same from both sides.
     let mixed = map(&view, |texel| if texel.x < 8 { 5.0 } else { 9.0 });
-    for filter in [presets::wang_molnar94(), presets::wang_molnar94().with_res_factor(0.0).with_min_size(2.5)] {
+    for filter in
+        [presets::wang_molnar94().filter, presets::wang_molnar94().filter.with_res_factor(0.0).with_min_size(2.5)]
+    {
         assert_eq!(probed(&filter, &mixed, &front), probed(&filter, &mixed, &back));
     }
 }
@@ -278,7 +281,7 @@ fn c_10_e_m6_texels_outside_the_map_answer_by_its_rules() {
     let share = |rules, depth: f32, stored: f32| {
         let view = sun(16).with_rules(rules);
         let at = tilted(&view, DVec2::new(16.0, 8.0), f64::from(depth), DVec2::ZERO);
-        probed(&presets::wang_molnar94(), &map(&view, |_| stored), &at).0
+        probed(&presets::wang_molnar94().filter, &map(&view, |_| stored), &at).0
     };
     // Two of the nearest four are outside.
     assert_eq!(

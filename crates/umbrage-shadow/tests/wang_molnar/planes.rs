@@ -28,7 +28,7 @@ pub(super) fn random_plane(view: &View, i: u32, least: f64, most: f64) -> Option
 #[test]
 fn wm94_7_t_11_virtual_samples_lie_where_the_map_was_sampled() {
     let view = lamp(64).with_sampling(Sampling::Jittered { seed: 3 });
-    let nearest = presets::wang_molnar94();
+    let nearest = presets::wang_molnar94().filter;
     let around = nearest.with_min_size(1.5);
     let (mut four, mut nine, mut elsewhere, mut asked) = (0, 0, 0, 0);
     for i in 0..400 {
@@ -125,7 +125,7 @@ fn v58_virtual_depths_in_f32_against_f64() {
 }
 
 fn always() -> Conditional {
-    presets::wang_molnar94().with_when(VirtualWhen::Always)
+    presets::wang_molnar94().filter.with_when(VirtualWhen::Always)
 }
 
 #[test]
@@ -158,7 +158,7 @@ fn v41_wm94_10_edge_on_planes_fall_back_and_horizons_are_infinitely_far_d_5() {
         assert_eq!(probed(&always(), &map(&view, |_| stored), &past).0, wanted, "{stored}");
     }
     // A reach keeps the plane near the receiver: 10 ± 1.
-    let plane = presets::wang_molnar94().plane.with_reach(1.0);
+    let plane = presets::wang_molnar94().filter.plane.with_reach(1.0);
     for (stored, wanted) in [(10.5, 1.0), (11.5, 0.0)] {
         assert_eq!(probed(&always().with_plane(plane), &map(&view, |_| stored), &past).0, wanted, "{stored}");
     }
@@ -170,8 +170,8 @@ fn sheets(view: &View) -> [u32; 5] {
     for i in 0..3000 {
         let Some((exact, receiver)) = random_plane(view, i, 0.05, 1.0) else { continue };
         let stored = sheet(view, &exact);
-        let strictly = presets::wang_molnar94().with_plane(OnPlane::default());
-        let (fraction, counters) = probed(&presets::wang_molnar94(), &stored, &receiver);
+        let strictly = presets::wang_molnar94().filter.with_plane(OnPlane::default());
+        let (fraction, counters) = probed(&presets::wang_molnar94().filter, &stored, &receiver);
         let nearby: Vec<IVec2> =
             TexelRect::around(receiver.footprint.centre - 0.5, Vec2::splat(0.5)).texels().take(4).collect();
         let second: Vec<f32> = nearby.iter().map(|&texel| stored.depth(texel)).collect();

@@ -11,7 +11,7 @@ use umbrage_sample::{EveryTexel, Pattern};
 /// together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Ordinary<P = EveryTexel> {
+pub struct FilteredDepth<P = EveryTexel> {
     /// Where to look.
     pub pattern: P,
     /// Moves the receiver toward the light.
@@ -20,25 +20,25 @@ pub struct Ordinary<P = EveryTexel> {
     pub res_factor: f32,
 }
 
-impl Default for Ordinary {
+impl Default for FilteredDepth {
     /// Every texel of the region as it is, no bias.
     fn default() -> Self {
         Self { pattern: EveryTexel, bias: Bias::ZERO, res_factor: 1.0 }
     }
 }
 
-umbrage_plane::builders!([P] Ordinary<P> { with_bias bias: Bias, with_res_factor res_factor: f32 });
+umbrage_plane::builders!([P] FilteredDepth<P> { with_bias bias: Bias, with_res_factor res_factor: f32 });
 
-impl<P> Ordinary<P> {
+impl<P> FilteredDepth<P> {
     /// The same, looking elsewhere.
     #[must_use]
-    pub fn with_pattern<Q: Pattern>(self, pattern: Q) -> Ordinary<Q> {
+    pub fn with_pattern<Q: Pattern>(self, pattern: Q) -> FilteredDepth<Q> {
         let Self { bias, res_factor, .. } = self;
-        Ordinary { pattern, bias, res_factor }
+        FilteredDepth { pattern, bias, res_factor }
     }
 }
 
-impl<P: Pattern> Filter for Ordinary<P> {
+impl<P: Pattern> Filter for FilteredDepth<P> {
     #[inline(always)]
     fn shadow<S: Simd, M: DepthMap, Q: Probe>(&self, query: &mut Query<'_, S, M, Q>) -> f32 {
         if let Some(dark) = query.placed(query.receiver().footprint.centre) {
