@@ -14,6 +14,9 @@ pub fn run(root: &Path) -> anyhow::Result<bool> {
     steps.cargo("format", &["fmt", "--all", "--check"], &[])?;
     steps.cargo("lints", &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[])?;
     steps.tests(&["test", "--workspace"], &mut tests)?;
+    for example in examples(root)? {
+        steps.cargo("examples", &["run", "--quiet", "--package", "umbrage-examples", "--example", &example], &[])?;
+    }
     // A page that links nowhere is worse than none.
     steps.cargo("documentation", &["doc", "--no-deps", "--workspace"], &[("RUSTDOCFLAGS", "-D warnings")])?;
     steps.own("tidy", &["tidy"])?;
@@ -21,6 +24,20 @@ pub fn run(root: &Path) -> anyhow::Result<bool> {
     // The quick figures stand there already and are used again.
     steps.own("kept pictures and numbers", &["figures", "--check", "--out", "target/ci-figures"])?;
     Ok(steps.tell(&tests))
+}
+
+/// The names of all example programs, in order.
+fn examples(root: &Path) -> anyhow::Result<Vec<String>> {
+    let folder = root.join("examples/examples");
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(&folder).with_context(|| folder.display().to_string())? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|extension| extension == "rs") {
+            names.extend(path.file_stem().map(|name| name.to_string_lossy().into_owned()));
+        }
+    }
+    names.sort_unstable();
+    Ok(names)
 }
 
 struct Steps<'a> {

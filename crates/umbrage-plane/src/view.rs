@@ -233,7 +233,7 @@ impl View {
     /// The part of the same view that a rectangle of its texels shows, with those texels as its map: what was at a texel
     /// position is now there minus `texels.min`. The rectangle may reach beyond the map, which widens the view.
     ///
-    /// Everything is the same to the roundings of f64, so that a depth rounded to f32 rarely differs, and then by one step. Two
+    /// Everything is the same to the roundings of f64, so that a depth rounded to f32 rarely differs (in fewer than one texel of a thousand), and then by a few steps. Two
     /// things belong to a map and not to a view: footprints are capped at a quarter of the map, which is now smaller, and a
     /// jittered sampling draws its places by the texel's column and row, which are now others.
     ///

@@ -82,6 +82,7 @@ const RULES: &[Rule] = &[
     },
     Rule { package: "umbrage-figures", arrows: FIGURES, outside: &["anyhow", "clap", "glam", "rayon"], tests: &[] },
     Rule { package: "umbrage-bench", arrows: EVERY, outside: &[], tests: &["criterion", "glam"] },
+    Rule { package: "umbrage-examples", arrows: EVERY, outside: &[], tests: &["glam"] },
     Rule { package: "xtask", arrows: &[], outside: &["anyhow", "proc-macro2", "toml"], tests: &[] },
     Rule { package: "umbrage-tests", arrows: EVERY, outside: &["fearless_simd", "glam", "rayon"], tests: PROPERTIES },
 ];
