@@ -17,6 +17,7 @@ pub fn run(root: &Path) -> anyhow::Result<bool> {
     for example in examples(root)? {
         steps.cargo("examples", &["run", "--quiet", "--package", "umbrage-examples", "--example", &example], &[])?;
     }
+    steps.step("README's program in a package of its own", || crate::readme::run(root))?;
     // A page that links nowhere is worse than none.
     steps.cargo("documentation", &["doc", "--no-deps", "--workspace"], &[("RUSTDOCFLAGS", "-D warnings")])?;
     steps.own("tidy", &["tidy"])?;

@@ -4,6 +4,7 @@
 mod ci;
 mod figures;
 mod programs;
+mod readme;
 mod tidy;
 
 use std::ffi::OsString;

@@ -1,7 +1,7 @@
 use glam::Vec3;
 use umbrage_plane::SurfacePoint;
 use umbrage_sample::Key;
-use umbrage_shadow::Shadow;
+use umbrage_shadow::{Shadow, same_length};
 
 /// The mean of several shadows, each of equal weight: truth at several times of a frame is motion blur (EXT-2).
 ///
@@ -10,6 +10,7 @@ pub struct Mean<'a>(pub Vec<Box<dyn Shadow + 'a>>);
 
 impl Shadow for Mean<'_> {
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
+        same_length(at, out);
         let mut one = vec![0.0; at.len()];
         out.fill(0.0);
         for shadow in &self.0 {
@@ -23,7 +24,9 @@ impl Shadow for Mean<'_> {
         }
     }
 
-    fn transmittances(&self, at: &[SurfacePoint], key: Key, _fractions: &[f32], out: &mut [Vec3]) {
+    fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
+        same_length(at, fractions);
+        same_length(at, out);
         // One shadow's passes need its own fractions; the mean of them all will not do.
         let (mut dark, mut one) = (vec![0.0; at.len()], vec![Vec3::ONE; at.len()]);
         out.fill(if self.0.is_empty() { Vec3::ONE } else { Vec3::ZERO });

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use umbrage_plane::{SurfacePoint, Verdict, View};
 use umbrage_sample::Key;
-use umbrage_shadow::{Shadow, Unshadowed};
+use umbrage_shadow::{Shadow, Unshadowed, same_length};
 
 /// What counts as truth. The default is physical: every object blocks light.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -171,6 +171,7 @@ impl Shadow for RayCast<'_> {
         if self.lamp.opaque {
             return Unshadowed.transmittances(at, key, fractions, out);
         }
+        same_length(at, fractions);
         each(at, out, |point| self.passes(point));
     }
 }
@@ -212,6 +213,7 @@ impl Shadow for AreaRegion<'_> {
         if self.ray.lamp.opaque {
             return Unshadowed.transmittances(at, key, fractions, out);
         }
+        same_length(at, fractions);
         each(at, out, |point| self.passed(point, key).mean());
     }
 }
@@ -276,6 +278,7 @@ impl Shadow for AreaLight<'_> {
         if self.ray.lamp.opaque {
             return Unshadowed.transmittances(at, key, fractions, out);
         }
+        same_length(at, fractions);
         each(at, out, |point| self.passed(point, key).mean());
     }
 }
@@ -294,8 +297,14 @@ fn to_disc(unit: DVec2) -> DVec2 {
     DVec2::from_angle(angle) * radius
 }
 
+/// The answer of each point.
+///
+/// # Panics
+/// When there is not one for each.
+#[track_caller]
 fn each<T: Send>(at: &[SurfacePoint], out: &mut [T], answer: impl Fn(&SurfacePoint) -> T + Sync) {
     const BATCH: usize = 64;
+    same_length(at, out);
     at.par_chunks(BATCH).zip(out.par_chunks_mut(BATCH)).for_each(|(at, out)| {
         for (point, out) in at.iter().zip(out) {
             *out = answer(point);

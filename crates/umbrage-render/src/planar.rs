@@ -7,7 +7,7 @@ use umbrage_plane::{SurfacePoint, View, ViewError, planar_shadow};
 use umbrage_raster::{Cull, Triangle};
 use umbrage_sample::Key;
 use umbrage_scene::Scene;
-use umbrage_shadow::Shadow;
+use umbrage_shadow::{Shadow, same_length};
 
 /// A rectangle of a plane that receives planar shadows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,6 +68,7 @@ impl Planar {
 
 impl Shadow for Planar {
     fn fractions(&self, at: &[SurfacePoint], _key: Key, out: &mut [f32]) {
+        same_length(at, out);
         for (point, fraction) in at.iter().zip(out) {
             *fraction = f32::from(u8::from(self.is_dark(point)));
         }

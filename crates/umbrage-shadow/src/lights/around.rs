@@ -131,6 +131,7 @@ impl<F: Filter, M: DepthMap> Shadow for Around<F, M> {
         if grey(&self.maps) {
             return Unshadowed.transmittances(at, key, fractions, out);
         }
+        same_length(at, fractions);
         by_channel(at, out, |channel, dark| self.batch(channel, at, key, dark));
     }
 }

@@ -18,7 +18,8 @@ use umbrage_sample::Key;
 
 /// What shading sees of a shadow algorithm, and the one place where types are erased: a call answers a whole batch of regions.
 ///
-/// `key` names the picture's light; the implementor adds each point's region to it.
+/// `key` names the picture's light; the implementor adds each point's region to it, and refuses slices of other lengths by
+/// [`same_length`].
 pub trait Shadow: Send + Sync {
     /// The fraction in shadow of each region: 0 lit, 1 dark (spec C-6).
     ///
@@ -94,9 +95,12 @@ fn by_channel(at: &[SurfacePoint], out: &mut [Vec3], mut ask: impl FnMut(Channel
     }
 }
 
+/// Refuses a batch that has not one answer for each point, as [`Shadow`] promises: the first line of any implementor's functions.
+///
 /// # Panics
-/// When there is not one answer for each point.
+/// When `answers` is not as long as `at`. The message gives both lengths.
 #[track_caller]
-fn same_length<T>(at: &[SurfacePoint], answers: &[T]) {
-    assert_eq!(answers.len(), at.len(), "as many answers as surface points");
+pub fn same_length<T>(at: &[SurfacePoint], answers: &[T]) {
+    let (points, answers) = (at.len(), answers.len());
+    assert!(answers == points, "{points} surface points need {points} answers, but the slice given holds {answers}");
 }

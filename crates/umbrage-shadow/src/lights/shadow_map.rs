@@ -93,6 +93,7 @@ impl<F: Filter, M: DepthMap> Shadow for ShadowMap<F, M> {
         if self.map.translucent().is_none_or(Translucent::is_grey) {
             return Unshadowed.transmittances(at, key, fractions, out);
         }
+        same_length(at, fractions);
         by_channel(at, out, |channel, dark| self.batch(channel, at, key, dark, &mut ()));
     }
 }
