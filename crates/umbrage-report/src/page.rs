@@ -259,8 +259,10 @@ fn panel(panel: &PanelRecord) -> String {
         let _ = write!(parameters, "<div><dt>zoom</dt><dd>{} ×</dd></div>", panel.zoom);
     }
     let list = if parameters.is_empty() { String::new() } else { format!("<dl>{parameters}</dl>") };
+    // Wider than a screen's column of pictures can show: all of the row.
+    let wide = if panel.size[0] > 1024 { " class=\"wide\"" } else { "" };
     format!(
-        "<figure><a href=\"{file}\" class=\"open\" data-caption=\"{alt}\" data-zoom=\"{}\"><img \
+        "<figure{wide}><a href=\"{file}\" class=\"open\" data-caption=\"{alt}\" data-zoom=\"{}\"><img \
          src=\"{file}\" {lazy} alt=\"{alt}\"></a><figcaption><p>{caption}{role}</p>{list}\
          </figcaption></figure>\n",
         panel.zoom

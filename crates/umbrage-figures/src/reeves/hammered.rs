@@ -45,6 +45,11 @@ fn shaded(normal: Vec3) -> Vec3 {
     MATT * (0.25 + normal.dot(LIGHT).max(0.0)) + SHINE * highlight(normal, HALF.normalize())
 }
 
+/// Each normal's own shading, then the mean.
+fn first(pattern: &impl Pattern, region: &Footprint, key: Key) -> Vec3 {
+    weighted_mean(pattern, region, key, |tap| shaded(normal(tap.at)))
+}
+
 /// What a pixel of the picture covers of the floor. Rows go from near the horizon down to the feet.
 fn footprint(pixel: UVec2, size: UVec2) -> Footprint {
     let ground = |x: f32, y: f32| {
@@ -65,9 +70,6 @@ pub(super) fn panels(cx: &Context) -> Vec<Panel> {
     };
     let few = Jittered::default();
     let many = few.with_num_samples(1024);
-    fn first<P: Pattern>(pattern: &P, region: &Footprint, key: Key) -> Vec3 {
-        weighted_mean(pattern, region, key, |tap| shaded(normal(tap.at)))
-    }
     let transformed = draw(&|region, key| first(&few, region, key));
     let truth = draw(&|region, key| first(&many, region, key));
     let filtered = draw(&|region, key| {

@@ -53,13 +53,23 @@ impl Sheet {
     pub fn faults(&mut self, column: u32, row: u32, acne: Option<f64>, leak: Option<f64>) {
         let corner = UVec2::new(LEFT + column * self.cell, TOP + (row + 1) * self.cell - letters::LINE - 1);
         if let Some(acne) = acne {
-            self.write(corner + UVec2::new(3, 0), &percent(acne), too_dark());
+            self.boxed(corner + UVec2::new(3, 0), &percent(acne), too_dark());
         }
         if let Some(leak) = leak {
             let text = percent(leak);
             let across = self.cell - 3 - letters::width(&text);
-            self.write(corner + UVec2::new(across, 0), &text, too_light());
+            self.boxed(corner + UVec2::new(across, 0), &text, too_light());
         }
+    }
+
+    /// Text that is read over any picture.
+    fn boxed(&mut self, at: UVec2, text: &str, ink: Vec3) {
+        let across = letters::width(text) + 2;
+        for y in 0..letters::LINE {
+            let from = ((at.y + y) * self.size.x + at.x - 1) as usize;
+            self.pixels[from..from + across as usize].fill(PAPER);
+        }
+        self.write(at, text, ink);
     }
 
     fn write(&mut self, at: UVec2, text: &str, ink: Vec3) {
