@@ -45,9 +45,10 @@ fn side(view: &View, caster: &Caster) -> Option<DVec3> {
 
 /// Where a place of the map looks in eye space: (x/ζ, y/ζ, −1), or (x, y, 1) in an orthographic view.
 fn ray(view: &View, texel: DVec2) -> DVec3 {
-    let screen = DVec2::new(2.0, -2.0) * texel / view.size().as_dvec2() + DVec2::new(-1.0, 1.0);
+    let screen =
+        DVec2::new(2.0, -2.0) * texel / view.size().as_dvec2() + DVec2::new(-1.0, 1.0) - view.projection().shift();
     match view.projection() {
-        Projection::Perspective { k } => (screen / k).extend(-1.0),
-        Projection::Orthographic { half } => (screen * half).extend(1.0),
+        Projection::Perspective { k, .. } => (screen / k).extend(-1.0),
+        Projection::Orthographic { half, .. } => (screen * half).extend(1.0),
     }
 }

@@ -12,7 +12,7 @@ use umbrage_report::{Verdict, summary};
 #[command(name = "cargo xtask figures", bin_name = "cargo xtask figures")]
 #[expect(clippy::struct_excessive_bools, reason = "the switches of a command line")]
 struct Cli {
-    /// Only these figures
+    /// Only these figures; others that the folder holds stay on the page
     #[arg(long, num_args = 1.., value_name = "ID")]
     only: Vec<String>,
     /// Smaller pictures and fewer samples; bounds that need full size are not judged
@@ -100,7 +100,7 @@ fn run(cli: &Cli) -> anyhow::Result<Outcome> {
         for finding in &findings {
             println!("{finding}");
         }
-        println!("check: {} differences", findings.len());
+        println!("check: {} difference{}", findings.len(), if findings.len() == 1 { "" } else { "s" });
         return Ok(if findings.is_empty() { Outcome::Good } else { Outcome::Failed });
     }
     let report = run.make()?;

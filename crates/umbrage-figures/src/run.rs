@@ -1,12 +1,13 @@
 //! A run of the catalogue's figures.
 
+use crate::catalogue;
 use crate::figure::{Context, Figure};
 use std::path::PathBuf;
 use umbrage_report::Report;
 
 /// What a run makes and where it puts it.
 pub struct Run<'a> {
-    /// In the order of the gallery.
+    /// Those that are made, in the order of the gallery.
     pub figures: Vec<&'a Figure>,
     /// What every figure is asked.
     pub context: Context,
@@ -17,13 +18,15 @@ pub struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Makes what is not there yet, then writes report and gallery.
+    /// Makes what is not there yet, and writes report and gallery; figures of the catalogue that the folder holds already
+    /// stay in both. The report that is returned holds the run's own figures only.
     ///
     /// # Errors
     /// When a figure fails or a file cannot be written.
     pub fn make(&self) -> anyhow::Result<Report> {
         let run = umbrage_report::Run {
-            entries: self.figures.iter().map(|figure| figure.entry(&self.context)).collect(),
+            entries: catalogue::figures().map(|figure| figure.entry(&self.context)).collect(),
+            only: self.figures.iter().map(|figure| figure.id.into()).collect(),
             quick: self.context.quick,
             settings: self.context.settings(),
             threads: self.threads,

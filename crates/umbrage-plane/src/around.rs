@@ -60,10 +60,13 @@ pub struct Sectors {
 /// Euclidean distance; outside they are lit.
 ///
 /// # Errors
-/// As [`View::new`]; also [`ViewError::Scale`] for fewer than three sectors, or a margin that makes a sector 180° wide.
+/// As [`View::new`]; also [`ViewError::Sectors`] for fewer than three sectors, or a margin that makes a sector 180° wide.
 pub fn sector_views(eye: DVec3, near: f64, far: f64, sectors: &Sectors) -> Result<Vec<View>, ViewError> {
     let half = std::f64::consts::PI / f64::from(sectors.count) + sectors.margin;
-    let wide = if sectors.count >= 3 && half < std::f64::consts::FRAC_PI_2 { 1.0 / half.tan() } else { f64::NAN };
+    if !(sectors.count >= 3 && half < std::f64::consts::FRAC_PI_2) {
+        return Err(ViewError::Sectors { count: sectors.count, half_radians: half });
+    }
+    let wide = 1.0 / half.tan();
     // The corners of a flat view see less elevation than its middle: what must be seen at its side.
     let k = DVec2::new(wide, half.cos() / sectors.tan_elevation);
     let one = |index: u32| {
@@ -77,6 +80,6 @@ pub fn sector_views(eye: DVec3, near: f64, far: f64, sectors: &Sectors) -> Resul
 fn looking(eye: DVec3, ahead: DVec3, up: DVec3, k: DVec2, near: f64, far: f64, size: UVec2) -> Result<View, ViewError> {
     let axes = DMat3::from_cols(ahead.cross(up), up, -ahead);
     let world_to_eye = DMat4::from_mat3(axes.transpose()) * DMat4::from_translation(-eye);
-    let view = View::new(world_to_eye, Projection::Perspective { k }, near, far, size)?;
+    let view = View::new(world_to_eye, Projection::perspective(k), near, far, size)?;
     Ok(view.with_kind(Kind::Radial).with_rules(Rules::AROUND))
 }

@@ -27,6 +27,7 @@ impl Footprint {
     }
 
     /// The bounding box of four corners.
+    #[inline(always)]
     pub fn around(corners: [Vec2; 4]) -> Self {
         let (mut low, mut high) = (corners[0], corners[0]);
         for corner in corners {
@@ -53,6 +54,14 @@ impl Footprint {
             half,
             corners: self.corners.map(|corner| self.centre + (corner - self.centre) * scale),
         }
+    }
+
+    /// Half-axes: along the first edge, from the first corner to the second, and along the second edge, each the mean of two
+    /// opposite edges. They span the quadrilateral where it is a parallelogram.
+    #[inline(always)]
+    pub fn axes(&self) -> [Vec2; 2] {
+        let [a, b, c, d] = self.corners;
+        [((b - a) + (c - d)) * 0.25, ((d - a) + (c - b)) * 0.25]
     }
 
     /// Twice-signed area of the quadrilateral divided by the area of its bounding box, as a share in 0..=1; 0 for a degenerate box.

@@ -29,8 +29,10 @@
 
 mod affine;
 mod around;
+mod batch;
 mod builders;
 mod footprint;
+mod named;
 mod planar;
 mod policy;
 mod receiver;
@@ -38,6 +40,7 @@ mod rect;
 mod sampling;
 mod simd;
 mod view;
+mod view_error;
 
 #[doc(hidden)]
 pub use fearless_simd;
@@ -47,10 +50,14 @@ pub use glam;
 pub use affine::{Affine, Decode, DepthPlane, DepthRange, Facet, Facing, Kind};
 pub use around::{Sectors, cube_face, cube_views, sector_views};
 pub use footprint::Footprint;
+pub use named::{SpotView, up_for};
 pub use planar::planar_shadow;
 pub use policy::{Rules, Verdict, Where};
 pub use receiver::{Bias, Receiver, SurfacePoint};
 pub use rect::TexelRect;
 pub use sampling::{Sampling, mix32};
 pub use simd::floor_texel;
-pub use view::{Projection, View, ViewError};
+pub use view::{Projection, View};
+pub use view_error::ViewError;
+
+pub(crate) use named::look_at;

@@ -1,5 +1,5 @@
 use crate::{Affine, DepthPlane, Footprint, Kind, Projection, Verdict, View, Where};
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// A region of surface to be shaded, in world space.
 ///
@@ -64,6 +64,12 @@ pub struct Receiver {
     pub kind: Kind,
     /// The region's image in the map.
     pub footprint: Footprint,
+    /// Where the point itself lies in the map, texels. The footprint's box lies around it but its centre is elsewhere: the
+    /// image of a region's centre is not the centre of its image in perspective.
+    pub texel: DVec2,
+    /// Half-axes of the footprint, texels: along the region's first edge (from its first corner to its second) and along its
+    /// second edge, each the mean of two opposite edges. Zero for a point.
+    pub axes: [Vec2; 2],
     /// Depth at the region's centre, in the map's kind.
     pub depth: f32,
     /// Width and height of a texel at this depth, in world units.
@@ -138,15 +144,7 @@ impl View {
     pub fn receiver(&self, at: &SurfacePoint) -> Result<Receiver, Where> {
         let eye = self.world_to_eye.transform_point3(at.position);
         let zeta = -eye.z;
-        if self.is_perspective() && (zeta <= 0.0 || zeta.is_nan()) {
-            return Err(Where::Behind);
-        }
-        if zeta < self.near && self.rules.near != Verdict::Compare {
-            return Err(Where::Near);
-        }
-        if zeta > self.far && self.rules.far != Verdict::Compare {
-            return Err(Where::Far);
-        }
+        self.reached(zeta)?;
         let normal = self.world_to_eye.transform_vector3(at.normal.as_dvec3());
         let (toward, slope) = match self.projection {
             Projection::Perspective { .. } => {
@@ -155,9 +153,13 @@ impl View {
             }
             Projection::Orthographic { .. } => (DVec3::Z, normal.truncate().length() / normal.z.abs()),
         };
+        let texel = self.eye_to_texel(eye);
+        let footprint = self.footprint(at, eye, texel.as_vec2());
         Ok(Receiver {
             kind: self.kind,
-            footprint: self.footprint(at, eye),
+            footprint,
+            texel,
+            axes: footprint.axes(),
             depth: self.depth(eye),
             texel_world: self.texel_world(zeta).as_vec2(),
             facing: normal.dot(toward) as f32,
@@ -168,9 +170,23 @@ impl View {
         })
     }
 
+    /// The place at an axial distance, when that alone settles the answer.
     #[inline(always)]
-    fn footprint(&self, at: &SurfacePoint, eye: DVec3) -> Footprint {
-        let centre = self.eye_to_texel(eye).as_vec2();
+    pub(crate) fn reached(&self, zeta: f64) -> Result<(), Where> {
+        if self.is_perspective() && (zeta <= 0.0 || zeta.is_nan()) {
+            return Err(Where::Behind);
+        }
+        if zeta < self.near && self.rules.near != Verdict::Compare {
+            return Err(Where::Near);
+        }
+        if zeta > self.far && self.rules.far != Verdict::Compare {
+            return Err(Where::Far);
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    pub(crate) fn footprint(&self, at: &SurfacePoint, eye: DVec3, centre: Vec2) -> Footprint {
         let [first, second, third, _] = at.corner_offsets;
         if second == first && third == first {
             return Footprint::point(centre);
@@ -188,7 +204,13 @@ impl View {
             }
             .as_vec2()
         });
-        let whole = Footprint::around(clipped);
+        self.capped(clipped, centre)
+    }
+
+    /// The footprint of four corners about the image of their region's centre, at most a quarter of the map to each side.
+    #[inline(always)]
+    pub(crate) fn capped(&self, corners: [Vec2; 4], centre: Vec2) -> Footprint {
+        let whole = Footprint::around(corners);
         let most = self.size.as_vec2() * 0.25;
         if whole.half.cmple(most).all() {
             return whole;

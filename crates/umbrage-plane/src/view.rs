@@ -1,55 +1,42 @@
-use crate::{Affine, Decode, Kind, Rules, Sampling, Where};
+use crate::{Affine, Decode, Kind, Rules, Sampling, TexelRect, ViewError, Where, look_at};
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, UVec2, Vec2};
 
 /// How eye space is laid on the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
-    /// x_n = k·x/ζ: `k` is the cotangent of half the field of view, per axis.
+    /// x_n = k·x/ζ + shift: `k` is the cotangent of half the field of view, per axis.
     Perspective {
         /// cot(fov/2) for x and y.
         k: DVec2,
+        /// Where the axis of view meets the screen, x_n and y_n: 0 in its middle, ±1 at its sides.
+        shift: DVec2,
     },
-    /// x_n = x/half: `half` is half the width and height of the view, in world units.
+    /// x_n = x/half + shift: `half` is half the width and height of the view, in world units.
     Orthographic {
         /// Half width and half height.
         half: DVec2,
+        /// Where the axis of view meets the screen, x_n and y_n: 0 in its middle, ±1 at its sides.
+        shift: DVec2,
     },
 }
 
-/// Why a view cannot be made.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ViewError {
-    /// A number of the placement is NaN or infinite, or the directions do not span a frame.
-    #[error("view placement is degenerate: {0}")]
-    Placement(&'static str),
-    /// The field of view or width is not positive and finite, or an angle is not below 180°.
-    #[error("view projection scale ({x}, {y}) is not positive and finite")]
-    Scale {
-        /// Scale in x.
-        x: f64,
-        /// Scale in y.
-        y: f64,
-    },
-    /// Not near < far, both finite, near > 0 in perspective.
-    #[error("view range near = {near}, far = {far} is not usable (near < far, both finite, near > 0 in perspective)")]
-    Range {
-        /// Near distance.
-        near: f64,
-        /// Far distance.
-        far: f64,
-    },
-    /// A cone of light whose tangent is not positive and finite.
-    #[error("view cone tangent {0} is not positive and finite")]
-    Cone(f64),
-    /// A map side of 0 or more than 32,768 texels.
-    #[error("view size {width} x {height} is not within 1..=32768 texels")]
-    Size {
-        /// Columns.
-        width: u32,
-        /// Rows.
-        height: u32,
-    },
+impl Projection {
+    /// A perspective about its axis: [`Projection::Perspective`] without a shift.
+    pub const fn perspective(k: DVec2) -> Self {
+        Self::Perspective { k, shift: DVec2::ZERO }
+    }
+
+    /// A parallel projection about its axis: [`Projection::Orthographic`] without a shift.
+    pub const fn orthographic(half: DVec2) -> Self {
+        Self::Orthographic { half, shift: DVec2::ZERO }
+    }
+
+    /// Where the axis of view meets the screen, x_n and y_n; zero for a view about its axis.
+    #[inline(always)]
+    pub const fn shift(self) -> DVec2 {
+        let (Self::Perspective { shift, .. } | Self::Orthographic { shift, .. }) = self;
+        shift
+    }
 }
 
 /// An eye or a light: placement, projection, texel grid, and what its map's numbers mean.
@@ -84,20 +71,30 @@ impl View {
         }
         if !is_rigid(world_to_eye) {
             return Err(ViewError::Placement(
-                "the matrix is no rotation and shift: it scales, shears, mirrors or projects",
+                "the matrix is not a rotation and a shift: it scales, shears, mirrors or projects",
             ));
         }
-        let (Projection::Perspective { k: scale } | Projection::Orthographic { half: scale }) = projection;
+        let (Projection::Perspective { k: scale, shift } | Projection::Orthographic { half: scale, shift }) =
+            projection;
         if !(scale.is_finite() && scale.cmpgt(DVec2::ZERO).all()) {
             return Err(ViewError::Scale { x: scale.x, y: scale.y });
         }
-        let perspective = matches!(projection, Projection::Perspective { .. });
-        if !(near.is_finite() && far.is_finite() && near < far) || (perspective && near <= 0.0) {
+        if !shift.is_finite() {
+            return Err(ViewError::Shift { x: shift.x, y: shift.y });
+        }
+        if !near.is_finite() {
+            return Err(ViewError::Near(near));
+        }
+        if !far.is_finite() {
+            return Err(ViewError::Far(far));
+        }
+        if matches!(projection, Projection::Perspective { .. }) && near <= 0.0 {
+            return Err(ViewError::NearAtEye(near));
+        }
+        if near >= far {
             return Err(ViewError::Range { near, far });
         }
-        if size.min_element() == 0 || size.max_element() > 32_768 {
-            return Err(ViewError::Size { width: size.x, height: size.y });
-        }
+        ViewError::of_size(size)?;
         Ok(Self {
             world_to_eye,
             eye_to_world: world_to_eye.inverse(),
@@ -115,7 +112,8 @@ impl View {
     /// At `eye`, looking at `target`, `up` upward, `fov` radians over the map's height; square texels.
     ///
     /// # Errors
-    /// As [`View::new`]; also when `eye` equals `target` or `up` is parallel to the direction of view.
+    /// As [`View::new`]; also when `eye`, `target` or `up` is not finite, `eye` equals `target`, `up` is parallel to the
+    /// direction of view, or `fov` is not within (0, π), as it is when degrees are given for radians.
     pub fn perspective(
         eye: DVec3,
         target: DVec3,
@@ -125,16 +123,20 @@ impl View {
         far: f64,
         size: UVec2,
     ) -> Result<Self, ViewError> {
+        ViewError::of_size(size)?;
+        if !(fov > 0.0 && fov < std::f64::consts::PI) {
+            return Err(ViewError::FieldOfView { radians: fov });
+        }
         let k = 1.0 / (0.5 * fov).tan();
-        let aspect = f64::from(size.x) / f64::from(size.y.max(1));
-        let k = if fov < std::f64::consts::PI { DVec2::new(k / aspect, k) } else { DVec2::splat(f64::NAN) };
-        Self::new(look_at(eye, target, up)?, Projection::Perspective { k }, near, far, size)
+        let aspect = f64::from(size.x) / f64::from(size.y);
+        let k = DVec2::new(k / aspect, k);
+        Self::new(look_at(eye, target, up)?, Projection::perspective(k), near, far, size)
     }
 
     /// Parallel rays from `eye` toward `target`; `half_height` in world units; square texels.
     ///
     /// # Errors
-    /// As [`View::perspective`].
+    /// As [`View::perspective`]; also when `half_height` is not positive and finite.
     pub fn orthographic(
         eye: DVec3,
         target: DVec3,
@@ -144,9 +146,13 @@ impl View {
         far: f64,
         size: UVec2,
     ) -> Result<Self, ViewError> {
-        let aspect = f64::from(size.x) / f64::from(size.y.max(1));
+        ViewError::of_size(size)?;
+        if !(half_height.is_finite() && half_height > 0.0) {
+            return Err(ViewError::HalfHeight(half_height));
+        }
+        let aspect = f64::from(size.x) / f64::from(size.y);
         let half = DVec2::new(half_height * aspect, half_height);
-        Self::new(look_at(eye, target, up)?, Projection::Orthographic { half }, near, far, size)
+        Self::new(look_at(eye, target, up)?, Projection::orthographic(half), near, far, size)
     }
 
     /// The same view whose map stores another kind of depth.
@@ -212,16 +218,43 @@ impl View {
     /// [`ViewError`], unless `factor` is positive and what it makes of the view is usable.
     pub fn scaled(self, factor: f64) -> Result<Self, ViewError> {
         if !(factor.is_finite() && factor > 0.0) {
-            return Err(ViewError::Placement("a scale must be positive and finite"));
+            return Err(ViewError::Factor(factor));
         }
         let mut world_to_eye = self.world_to_eye;
         world_to_eye.w_axis = (world_to_eye.w_axis.truncate() * factor).extend(1.0);
         let projection = match self.projection {
-            Projection::Perspective { k } => Projection::Perspective { k },
-            Projection::Orthographic { half } => Projection::Orthographic { half: half * factor },
+            Projection::Perspective { .. } => self.projection,
+            Projection::Orthographic { half, shift } => Projection::Orthographic { half: half * factor, shift },
         };
         let (near, far) = (self.near * factor, self.far * factor);
         Self::new(world_to_eye, projection, near, far, self.size).map(|view| view.alike(&self))
+    }
+
+    /// The part of the same view that a rectangle of its texels shows, with those texels as its map: what was at a texel
+    /// position is now there minus `texels.min`. The rectangle may reach beyond the map, which widens the view.
+    ///
+    /// Everything is the same to the roundings of f64, so that a depth rounded to f32 rarely differs, and then by one step. Two
+    /// things belong to a map and not to a view: footprints are capped at a quarter of the map, which is now smaller, and a
+    /// jittered sampling draws its places by the texel's column and row, which are now others.
+    ///
+    /// # Errors
+    /// [`ViewError::Size`] for a rectangle that is empty or more than 32,768 texels wide or high.
+    pub fn window(self, texels: TexelRect) -> Result<Self, ViewError> {
+        let (whole, low) = (self.size.as_dvec2(), texels.min.as_dvec2());
+        let part = (texels.max.as_dvec2() - low).max(DVec2::ZERO);
+        let size = part.as_uvec2();
+        ViewError::of_size(size)?;
+        let ratio = whole / part;
+        // x_n of the part is linear in x_n of the whole: both ends of the part are at ±1.
+        let middle = (whole - 2.0 * low - part) / part;
+        let shifted = |shift: DVec2| shift * ratio + middle * DVec2::new(1.0, -1.0);
+        let projection = match self.projection {
+            Projection::Perspective { k, shift } => Projection::Perspective { k: k * ratio, shift: shifted(shift) },
+            Projection::Orthographic { half, shift } => {
+                Projection::Orthographic { half: half / ratio, shift: shifted(shift) }
+            }
+        };
+        Self::new(self.world_to_eye, projection, self.near, self.far, size).map(|view| view.alike(&self))
     }
 
     /// With everything of another view that [`View::new`] does not ask for.
@@ -300,17 +333,18 @@ impl View {
     pub fn eye_to_screen(&self) -> DMat4 {
         let (n, f) = (self.near, self.far);
         match self.projection {
-            Projection::Perspective { k } => DMat4::from_cols(
+            // 0 − shift, so that no shift is +0.
+            Projection::Perspective { k, shift } => DMat4::from_cols(
                 DVec4::new(k.x, 0.0, 0.0, 0.0),
                 DVec4::new(0.0, k.y, 0.0, 0.0),
-                DVec4::new(0.0, 0.0, -f / (f - n), -1.0),
+                DVec4::new(0.0 - shift.x, 0.0 - shift.y, -f / (f - n), -1.0),
                 DVec4::new(0.0, 0.0, -f * n / (f - n), 0.0),
             ),
-            Projection::Orthographic { half } => DMat4::from_cols(
+            Projection::Orthographic { half, shift } => DMat4::from_cols(
                 DVec4::new(1.0 / half.x, 0.0, 0.0, 0.0),
                 DVec4::new(0.0, 1.0 / half.y, 0.0, 0.0),
                 DVec4::new(0.0, 0.0, -1.0 / (f - n), 0.0),
-                DVec4::new(0.0, 0.0, -n / (f - n), 1.0),
+                DVec4::new(shift.x, shift.y, -n / (f - n), 1.0),
             ),
         }
     }
@@ -325,22 +359,45 @@ impl View {
     #[inline(always)]
     pub fn eye_to_texel(&self, eye: DVec3) -> DVec2 {
         let screen = match self.projection {
-            Projection::Perspective { k } => k * eye.truncate() / -eye.z,
-            Projection::Orthographic { half } => eye.truncate() / half,
+            Projection::Perspective { k, shift } => k * eye.truncate() / -eye.z + shift,
+            Projection::Orthographic { half, shift } => eye.truncate() / half + shift,
         };
         self.screen_to_texel(screen)
+    }
+
+    /// Screen x_n, y_n of a texel position, measured from where the axis of view meets the screen.
+    #[inline(always)]
+    fn off_axis(&self, texel: DVec2) -> DVec2 {
+        DVec2::new(2.0, -2.0) * texel / self.size.as_dvec2() + DVec2::new(-1.0, 1.0) - self.projection.shift()
     }
 
     /// The world point that a texel position shows at a key ([`View::key`]).
     #[inline(always)]
     pub fn world_at(&self, texel: DVec2, key: f64) -> DVec3 {
-        let screen = DVec2::new(2.0, -2.0) * texel / self.size.as_dvec2() + DVec2::new(-1.0, 1.0);
+        let screen = self.off_axis(texel);
         let zeta = self.decode().zeta_of(key);
         let eye = match self.projection {
-            Projection::Perspective { k } => (screen / k).extend(-1.0) * zeta,
-            Projection::Orthographic { half } => (screen * half).extend(-zeta),
+            Projection::Perspective { k, .. } => (screen / k).extend(-1.0) * zeta,
+            Projection::Orthographic { half, .. } => (screen * half).extend(-zeta),
         };
         self.eye_to_world.transform_point3(eye)
+    }
+
+    /// The ray through a texel position: its origin and unit direction in the world. In perspective it starts at the eye, so
+    /// that distances along it are radial; in an orthographic view it starts on the near plane and goes straight ahead, so
+    /// that a distance along it plus [`View::near`] is axial. Any finite position has a ray, outside the map too.
+    pub fn ray(&self, texel: DVec2) -> (DVec3, DVec3) {
+        let screen = self.off_axis(texel);
+        match self.projection {
+            Projection::Perspective { k, .. } => {
+                let direction = self.eye_to_world.transform_vector3((screen / k).extend(-1.0));
+                (self.eye_to_world.w_axis.truncate(), direction.normalize())
+            }
+            Projection::Orthographic { half, .. } => {
+                let origin = self.eye_to_world.transform_point3((screen * half).extend(-self.near));
+                (origin, self.ahead().normalize())
+            }
+        }
     }
 
     /// A direction of this view's eye space in the world: for normals that are given in a camera's space (WM94-8). Normals of an object's own
@@ -370,20 +427,24 @@ impl View {
         let size = self.size.as_dvec2();
         let through = eye_normal.dot(eye_point);
         let plane = match self.projection {
-            Projection::Perspective { k } => {
+            Projection::Perspective { k, shift } => {
                 // −1/ζ = (n_x X + n_y Y − n_z) / −through, with the ray tangents X, Y affine in texels.
                 let scale = -1.0 / through;
                 let (nx, ny) = (eye_normal.x / k.x, eye_normal.y / k.y);
                 Affine {
-                    c: (ny - nx - eye_normal.z) * scale,
+                    c: (ny * (1.0 - shift.y) - nx * (1.0 + shift.x) - eye_normal.z) * scale,
                     dx: 2.0 / size.x * nx * scale,
                     dy: -2.0 / size.y * ny * scale,
                 }
             }
-            Projection::Orthographic { half } => {
+            Projection::Orthographic { half, shift } => {
                 let scale = 1.0 / eye_normal.z;
                 let (nx, ny) = (eye_normal.x * half.x, eye_normal.y * half.y);
-                Affine { c: (ny - nx - through) * scale, dx: 2.0 / size.x * nx * scale, dy: -2.0 / size.y * ny * scale }
+                Affine {
+                    c: (ny * (1.0 - shift.y) - nx * (1.0 + shift.x) - through) * scale,
+                    dx: 2.0 / size.x * nx * scale,
+                    dy: -2.0 / size.y * ny * scale,
+                }
             }
         };
         let plane = if self.kind == Kind::Screen { self.screen_plane(plane) } else { plane };
@@ -407,8 +468,8 @@ impl View {
     #[inline(always)]
     pub fn decode(&self) -> Decode {
         let (tangent0, tangent_step) = match self.projection {
-            Projection::Perspective { k } => {
-                (DVec2::new(-1.0, 1.0) / k, DVec2::new(2.0, -2.0) / self.size.as_dvec2() / k)
+            Projection::Perspective { k, shift } => {
+                ((DVec2::new(-1.0, 1.0) - shift) / k, DVec2::new(2.0, -2.0) / self.size.as_dvec2() / k)
             }
             Projection::Orthographic { .. } => (DVec2::ZERO, DVec2::ZERO),
         };
@@ -444,8 +505,8 @@ impl View {
     pub fn texel_world(&self, zeta: f64) -> DVec2 {
         let size = self.size.as_dvec2();
         match self.projection {
-            Projection::Perspective { k } => 2.0 * zeta / (k * size),
-            Projection::Orthographic { half } => 2.0 * half / size,
+            Projection::Perspective { k, .. } => 2.0 * zeta / (k * size),
+            Projection::Orthographic { half, .. } => 2.0 * half / size,
         }
     }
 
@@ -456,11 +517,10 @@ impl View {
         if !(texel.x >= 0.0 && texel.y >= 0.0 && texel.x < size.x && texel.y < size.y) {
             return Where::Outside;
         }
-        if let (Some(cone), Projection::Perspective { k }) = (self.cone, self.projection) {
-            let screen = DVec2::new(2.0, -2.0) * texel.as_dvec2() / self.size.as_dvec2() + DVec2::new(-1.0, 1.0);
-            if (screen / k).length_squared() > cone * cone {
-                return Where::BeyondCone;
-            }
+        if let (Some(cone), Projection::Perspective { k, .. }) = (self.cone, self.projection)
+            && (self.off_axis(texel.as_dvec2()) / k).length_squared() > cone * cone
+        {
+            return Where::BeyondCone;
         }
         Where::Inside
     }
@@ -479,13 +539,4 @@ fn is_rigid(matrix: DMat4) -> bool {
     (rotation * rotation.transpose()).abs_diff_eq(DMat3::IDENTITY, 1e-6)
         && rotation.determinant() > 0.0
         && matrix.row(3) == DVec4::W
-}
-
-fn look_at(eye: DVec3, target: DVec3, up: DVec3) -> Result<DMat4, ViewError> {
-    let forward = (target - eye).try_normalize().ok_or(ViewError::Placement("eye and target coincide"))?;
-    let right =
-        forward.cross(up).try_normalize().ok_or(ViewError::Placement("up is parallel to the direction of view"))?;
-    let up = right.cross(forward);
-    let axes = DMat4::from_cols(right.extend(0.0), up.extend(0.0), (-forward).extend(0.0), DVec4::W);
-    Ok(axes.transpose() * DMat4::from_translation(-eye))
 }

@@ -3,7 +3,7 @@
 //! Inks and themes are those of [`plot`]: `currentColor` and the series' custom properties.
 
 use crate::plot::{self, pixel};
-use crate::text::escape;
+use crate::text::{escape, proper};
 use glam::DVec2;
 use std::fmt::Write;
 
@@ -140,7 +140,7 @@ impl Diagram {
             ink.style(),
             pixel(at.x),
             pixel(at.y + 4.5),
-            escape(text)
+            escape(&proper(text))
         );
         self
     }
@@ -169,7 +169,7 @@ impl Diagram {
              <text x=\"{MARGIN}\" y=\"22\" font-size=\"15\" font-weight=\"600\">{1}</text>\n\
              <svg x=\"{MARGIN}\" y=\"{TOP}\" width=\"{inner}\" height=\"{2}\" viewBox=\"0 0 {inner} {2}\" overflow=\"hidden\">\n",
             pixel(height),
-            escape(&self.title),
+            escape(&proper(&self.title)),
             pixel(down),
         );
         svg.push_str(&self.body);
@@ -184,7 +184,7 @@ impl Diagram {
                 sample(*mark, x, y),
                 pixel(x + 28.0),
                 pixel(y + 4.5),
-                escape(name)
+                escape(&proper(name))
             );
         }
         svg.push_str("</svg>\n");

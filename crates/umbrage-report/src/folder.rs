@@ -13,8 +13,10 @@ use std::path::Path;
 /// `figure.json`: the record, and what tells whether it may be used again.
 #[derive(Serialize, Deserialize)]
 struct Kept {
-    /// Stands for the program and the parameters that the figure was made with.
-    key: String,
+    /// Stands for the program that made the figure.
+    program: String,
+    /// What the figure depends on beside the program.
+    settings: String,
     /// Every other file of the folder with a hash of its bytes.
     files: BTreeMap<String, String>,
     /// The record.
@@ -27,6 +29,15 @@ const TIMINGS: &str = "timings.json";
 /// Seconds by name, in the order in which they were taken.
 pub type Timings = Vec<(String, f64)>;
 
+/// What a figure's bytes depend on: the program that makes it, and the settings of the run. The threads are left out.
+#[derive(Clone, Copy)]
+pub struct Origin<'a> {
+    /// Stands for the program's own bytes.
+    pub program: &'a str,
+    /// The settings as text.
+    pub settings: &'a str,
+}
+
 /// A hash as text. It only ever meets hashes made by the same program, so the standard hasher serves.
 pub fn fingerprint(value: &(impl Hash + ?Sized)) -> String {
     let mut hasher = DefaultHasher::new();
@@ -34,22 +45,36 @@ pub fn fingerprint(value: &(impl Hash + ?Sized)) -> String {
     format!("{:016x}", hasher.finish())
 }
 
-/// The figure that stands in `out`, if it was made with the same key and every file is still as it was written.
-pub fn reuse(out: &Path, id: &str, key: &str) -> Option<(FigureRecord, Timings)> {
+/// The figure that stands in `out`, if every file of it is still as it was written. Its record says how its origin differs
+/// from `origin`, if it does.
+pub fn kept(out: &Path, id: &str, origin: Origin) -> Option<(FigureRecord, Timings)> {
     let folder = out.join(id);
     let kept: Kept = serde_json::from_slice(&std::fs::read(folder.join(RECORD)).ok()?).ok()?;
     let whole = |(name, hash): (&String, &String)| {
         std::fs::read(folder.join(name)).is_ok_and(|bytes| fingerprint(&bytes) == *hash)
     };
-    if kept.key != key || !kept.files.iter().all(whole) {
+    if kept.figure.id != id || !kept.files.iter().all(whole) {
         return None;
     }
     let timings = serde_json::from_slice(&std::fs::read(folder.join(TIMINGS)).ok()?).ok()?;
-    Some((kept.figure, timings))
+    let earlier = if kept.settings != origin.settings {
+        Some(format!("made with other settings: {}", kept.settings))
+    } else if kept.program != origin.program {
+        Some("made by another build of the program".into())
+    } else {
+        None
+    };
+    Some((FigureRecord { earlier, ..kept.figure }, timings))
 }
 
 /// Writes a figure's folder: into `.<id>.part` first, then renamed over `<id>`.
-pub fn write(out: &Path, heading: &Heading, made: &Made, key: &str, timings: &Timings) -> anyhow::Result<FigureRecord> {
+pub fn write(
+    out: &Path,
+    heading: &Heading,
+    made: &Made,
+    origin: Origin,
+    timings: &Timings,
+) -> anyhow::Result<FigureRecord> {
     check_against(made)?;
     check_names(made)?;
     let part = out.join(format!(".{}.part", heading.id));
@@ -62,7 +87,8 @@ pub fn write(out: &Path, heading: &Heading, made: &Made, key: &str, timings: &Ti
         ensure!(hashes.insert(name.clone(), fingerprint(&bytes)).is_none(), "two files are called {name}");
         umbrage_io::write_bytes(&part.join(name), &bytes)?;
     }
-    let kept = Kept { key: key.into(), files: hashes, figure: record };
+    let Origin { program, settings } = origin;
+    let kept = Kept { program: program.into(), settings: settings.into(), files: hashes, figure: record };
     umbrage_io::write_bytes(&part.join(RECORD), (serde_json::to_string_pretty(&kept)? + "\n").as_bytes())?;
     remove(&place)?;
     std::fs::rename(&part, &place).with_context(|| place.display().to_string())?;
@@ -87,6 +113,9 @@ fn files(made: &Made, record: &FigureRecord, timings: &Timings) -> anyhow::Resul
     for table in &made.tables {
         let lines = std::iter::once(&table.head).chain(&table.rows);
         files.push((file_name(&table.name, "csv")?, csv(lines).into_bytes()));
+    }
+    for table in &made.run_tables {
+        files.push((file_name(&table.name, "json")?, (serde_json::to_string_pretty(table)? + "\n").into_bytes()));
     }
     files.push(("measures.csv".into(), measures_csv(&record.measures).into_bytes()));
     files.push((TIMINGS.into(), (serde_json::to_string_pretty(timings)? + "\n").into_bytes()));

@@ -3,7 +3,8 @@
 //!
 //! An [`Entry`] says what a figure is called and how it is [made](Made). A [`Run`] makes its entries one after another into
 //! a folder: a folder for each figure, `report.json`, `timings.json`, and `index.html`, which needs nothing from elsewhere.
-//! A figure that was made by the same program with the same settings is kept. This crate knows no paper and no scene.
+//! A figure that was made by the same program with the same settings is kept, and a run of some figures leaves the others
+//! on the page. This crate knows no paper and no scene.
 //!
 //! ```no_run
 //! use umbrage_report::{Entry, Heading, Made, Measure, Run, Verdict};
@@ -16,7 +17,7 @@
 //! };
 //! let make = || Ok(Made { measures: vec![Measure::exactly("2 + 2", 2.0 + 2.0, "", 4.0)], ..Made::default() });
 //! let entries = vec![Entry { heading, make: Box::new(make) }];
-//! let run = Run { entries, quick: false, settings: String::new(), threads: None, out: "target/trials".into() };
+//! let run = Run { entries, quick: false, settings: String::new(), threads: None, only: Vec::new(), out: "target/trials".into() };
 //! assert_eq!(run.make()?.count(Verdict::Reproduced), 1);
 //! # Ok::<(), anyhow::Error>(())
 //! ```
@@ -33,7 +34,7 @@ mod run;
 pub mod text;
 
 pub use made::{Made, Table, Verdict};
-pub use measure::{Bound, Measure};
+pub use measure::{Bound, Kind, Measure};
 pub use panel::{Panel, Role};
 pub use record::{FigureRecord, Heading, MeasureRecord, PanelRecord, Report, TableRecord};
 pub use run::{Entry, Run, summary};

@@ -1,18 +1,25 @@
 //! The gallery: one page that holds its styles, its script and its plots, and refers to the pictures beside it.
 
-use crate::made::Verdict;
+use crate::made::{Table, Verdict};
 use crate::measure::Bound;
 use crate::panel::Role;
-use crate::record::{FigureRecord, MeasureRecord, PanelRecord, Report, TableRecord};
-use crate::text::escape;
+use crate::record::{FigureRecord, MeasureRecord, PanelRecord, Report};
+use crate::run::figures;
+use crate::text::{escape, html as set, proper};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// SVG texts by figure id and plot name.
-pub type Plots = BTreeMap<(String, String), String>;
+/// What the page holds beside the report, by figure id and name.
+#[derive(Default)]
+pub struct Beside {
+    /// SVG texts.
+    pub plots: BTreeMap<(String, String), String>,
+    /// Tables of the run alone.
+    pub tables: BTreeMap<(String, String), Table>,
+}
 
 /// The page's text.
-pub fn html(report: &Report, quick: bool, plots: &Plots) -> String {
+pub fn html(report: &Report, quick: bool, beside: &Beside) -> String {
     fill(include_str!("gallery/page.html"), |slot| match slot {
         "css" => include_str!("gallery/page.css").into(),
         "js" => include_str!("gallery/page.js").into(),
@@ -23,7 +30,7 @@ pub fn html(report: &Report, quick: bool, plots: &Plots) -> String {
         }
         "nav" => nav(report),
         "summary" => report.figures.iter().map(summary_row).collect(),
-        "sections" => sections(report, plots),
+        "sections" => sections(report, beside),
         _ => String::new(),
     })
 }
@@ -47,7 +54,7 @@ fn joined<T>(items: impl IntoIterator<Item = T>, each: impl Fn(T) -> String) -> 
 }
 
 fn class(verdict: Verdict) -> String {
-    format!("v-{}", verdict.word())
+    format!("v-{}", verdict.word().replace(' ', "-"))
 }
 
 fn badge(verdict: Verdict) -> String {
@@ -55,8 +62,12 @@ fn badge(verdict: Verdict) -> String {
 }
 
 fn tally(report: &Report) -> String {
-    let mut text = format!("<li><b>{}</b> figures</li>", report.figures.len());
-    for verdict in [Verdict::Reproduced, Verdict::Caveat, Verdict::Missed] {
+    let all = figures(report.figures.len());
+    let mut text = match all.split_once(' ') {
+        Some((count, word)) => format!("<li><b>{count}</b> {word}</li>"),
+        None => String::new(),
+    };
+    for verdict in Verdict::ALL {
         let count = report.count(verdict);
         if count > 0 {
             let _ = write!(text, "<li class=\"{}\"><b>{count}</b> {}</li>", class(verdict), verdict.word());
@@ -75,11 +86,11 @@ fn nav(report: &Report) -> String {
     for (paper, figures) in by_paper(report) {
         let _ = write!(text, "<div class=\"group\"><span class=\"paper\">{}</span>", escape(paper));
         for figure in figures {
-            let (id, title) = (escape(&figure.id), escape(&figure.title));
+            let (id, title, tip) = (escape(&figure.id), set(&figure.title), attribute(&figure.title));
             let class = class(figure.verdict);
             let _ = write!(
                 text,
-                "<a class=\"{class}\" href=\"#{id}\" title=\"{title}\"><b>{id}</b> <span>{title}</span></a>"
+                "<a class=\"{class}\" href=\"#{id}\" title=\"{tip}\"><b>{id}</b> <span>{title}</span></a>"
             );
         }
         text.push_str("</div>");
@@ -91,11 +102,12 @@ fn summary_row(figure: &FigureRecord) -> String {
     const KEY_MEASURES: usize = 2;
     let missed = figure.measures.iter().filter(|measure| measure.pass == Some(false));
     let met = figure.measures.iter().filter(|measure| measure.pass == Some(true));
-    let key = joined(missed.chain(met).take(KEY_MEASURES), |measure| {
-        let (name, value, bound) = (escape(&measure.name), value(measure), escape(&measure.bound.to_string()));
-        format!("<li>{} {name}: <b>{value}</b> <i>{bound}</i></li>", mark(measure.pass))
+    let unjudged = figure.measures.iter().filter(|measure| matches!(measure.bound, Bound::NotJudged(_)));
+    let key = joined(missed.chain(met).chain(unjudged).take(KEY_MEASURES), |measure| {
+        let (name, value, bound) = (set(&measure.name), value(measure), set(&measure.bound_text()));
+        format!("<li>{} {name}: <b>{value}</b> <i>{bound}</i></li>", mark(measure))
     });
-    let (id, title) = (escape(&figure.id), escape(&figure.title));
+    let (id, title) = (escape(&figure.id), set(&figure.title));
     format!(
         "<tr><th scope=\"row\"><a href=\"#{id}\">{id}</a></th><td>{title}</td><td>{}</td><td><ul>{key}</ul></td></tr>\n",
         badge(figure.verdict)
@@ -104,44 +116,50 @@ fn summary_row(figure: &FigureRecord) -> String {
 
 /// A value with its unit, as HTML.
 fn value(measure: &MeasureRecord) -> String {
-    let value = escape(&measure.value_text());
-    if measure.unit.is_empty() || measure.value.is_none() {
+    let value = set(&measure.value_text());
+    if measure.unit.is_empty() || measure.value.is_none() || measure.word().is_some() {
         return value;
     }
-    format!("{value} <span class=\"unit\">{}</span>", escape(&measure.unit))
+    format!("{value} <span class=\"unit\">{}</span>", set(&measure.unit))
 }
 
-fn mark(pass: Option<bool>) -> &'static str {
-    match pass {
+fn mark(measure: &MeasureRecord) -> &'static str {
+    match measure.pass {
         Some(true) => "<span class=\"mark met\" role=\"img\" aria-label=\"met\">✓</span>",
         Some(false) => "<span class=\"mark unmet\" role=\"img\" aria-label=\"not met\">✗</span>",
+        None if matches!(measure.bound, Bound::NotJudged(_)) => {
+            "<span class=\"mark unjudged\" role=\"img\" aria-label=\"not judged\">–</span>"
+        }
         None => "<span class=\"mark\"></span>",
     }
 }
 
-fn sections(report: &Report, plots: &Plots) -> String {
+fn sections(report: &Report, beside: &Beside) -> String {
     let mut text = String::new();
     for (index, (paper, figures)) in by_paper(report).into_iter().enumerate() {
         let _ = writeln!(text, "<section class=\"paper\" id=\"paper-{}\"><h2>{}</h2>", index + 1, escape(paper));
         for figure in figures {
-            text.push_str(&article(figure, plots));
+            text.push_str(&article(figure, beside));
         }
         text.push_str("</section>\n");
     }
     text
 }
 
-fn article(figure: &FigureRecord, plots: &Plots) -> String {
+fn article(figure: &FigureRecord, beside: &Beside) -> String {
     let id = escape(&figure.id);
     let mut text = format!(
         "<article id=\"{id}\"><header><p class=\"line\"><a href=\"#{id}\" class=\"id\">{id}</a>{}</p><h3>{}</h3>\
          <p class=\"claim\"><span>Must show</span> {}</p></header>\n",
         badge(figure.verdict),
-        escape(&figure.title),
-        escape(&figure.claim)
+        set(&figure.title),
+        set(&figure.claim)
     );
+    if let Some(earlier) = &figure.earlier {
+        let _ = writeln!(text, "<p class=\"earlier\"><b>Kept from an earlier run</b>, {}.</p>", set(earlier));
+    }
     if let Some(caveat) = &figure.caveat {
-        let _ = writeln!(text, "<p class=\"caveat\"><b>Caveat.</b> {}</p>", escape(caveat));
+        let _ = writeln!(text, "<p class=\"caveat\"><b>Caveat.</b> {}</p>", set(caveat));
     }
     let (wipe, measures) = (wipe(figure), measures(&figure.measures));
     let panels = match joined(&figure.panels, panel) {
@@ -156,13 +174,15 @@ fn article(figure: &FigureRecord, plots: &Plots) -> String {
         let _ = writeln!(text, "<div class=\"plate{both}\">{wipe}{measures}</div>\n{panels}");
     }
     if !figure.plots.is_empty() {
-        let svgs = figure.plots.iter().filter_map(|name| plots.get(&(figure.id.clone(), name.clone())));
+        let svgs = figure.plots.iter().filter_map(|name| beside.plots.get(&(figure.id.clone(), name.clone())));
         let plots = joined(svgs, |svg| format!("<div class=\"plot\">{svg}</div>"));
         let _ = writeln!(text, "<div class=\"plots\">{plots}</div>");
     }
-    text.extend(figure.tables.iter().map(table));
+    text.extend(figure.tables.iter().map(|one| table(&one.head, &one.rows, "")));
+    let of_run = figure.run_tables.iter().filter_map(|name| beside.tables.get(&(figure.id.clone(), name.clone())));
+    text.extend(of_run.map(|one| table(&one.head, &one.rows, "<caption>Of the run that made this figure</caption>")));
     if !figure.note.is_empty() {
-        let _ = writeln!(text, "<p class=\"note\">{}</p>", escape(&figure.note));
+        let _ = writeln!(text, "<p class=\"note\">{}</p>", set(&figure.note));
     }
     text + "</article>\n"
 }
@@ -182,23 +202,36 @@ fn wipe(figure: &FigureRecord) -> String {
             result.name == first.name,
             escape(&result.file),
             escape(&truth.file),
-            escape(&truth.caption),
+            attribute(&truth.caption),
             stage(result),
-            escape(&result.caption)
+            set(&result.caption)
         );
     }
     let hidden = if pairs.len() == 1 { " hidden" } else { "" };
-    let (style, result, other) = (stage(first), escape(&first.caption), escape(&truth.caption));
+    let (style, result, other) = (stage(first), set(&first.caption), set(&truth.caption));
+    let (alt, other_alt) = (attribute(&first.caption), attribute(&truth.caption));
+    let lazy = lazy(first);
     format!(
         "<div class=\"wipe\"><div class=\"tabs\" role=\"group\" aria-label=\"Result\"{hidden}>{tabs}</div>\
-         <div class=\"stage\" style=\"{style}\"><img class=\"under\" src=\"{}\" alt=\"{result}\">\
-         <img class=\"over\" src=\"{}\" alt=\"{other}\"><span class=\"bar\"></span>\
+         <div class=\"stage\" style=\"{style}\"><img class=\"under\" src=\"{}\" {lazy} alt=\"{alt}\">\
+         <img class=\"over\" src=\"{}\" {lazy} alt=\"{other_alt}\"><span class=\"bar\"></span>\
          <input type=\"range\" min=\"0\" max=\"100\" step=\"0.5\" value=\"50\" \
          aria-label=\"Wipe between result and truth\"></div>\
          <p class=\"sides\"><span>{result}</span><span>{other}</span></p></div>",
         escape(&first.file),
         escape(&truth.file)
     )
+}
+
+/// Text inside an attribute, where no markup can raise a power.
+fn attribute(text: &str) -> String {
+    escape(&proper(text))
+}
+
+/// What keeps a picture's room free until it is scrolled to and loaded.
+fn lazy(panel: &PanelRecord) -> String {
+    let [width, height] = panel.size;
+    format!("loading=\"lazy\" decoding=\"async\" width=\"{width}\" height=\"{height}\"")
 }
 
 /// Small pictures are enlarged by a whole number, so that every pixel keeps its shape.
@@ -210,8 +243,8 @@ fn stage(panel: &PanelRecord) -> String {
 }
 
 fn panel(panel: &PanelRecord) -> String {
-    let (file, caption) = (escape(&panel.file), escape(&panel.caption));
-    let [width, height] = panel.size;
+    let (file, caption, alt) = (escape(&panel.file), set(&panel.caption), attribute(&panel.caption));
+    let lazy = lazy(panel);
     let role = match panel.role {
         Role::Result => "",
         Role::Truth => "<span class=\"role truth\">truth</span>",
@@ -220,15 +253,15 @@ fn panel(panel: &PanelRecord) -> String {
     };
     let mut parameters = String::new();
     for (name, value) in &panel.parameters {
-        let _ = write!(parameters, "<div><dt>{}</dt><dd>{}</dd></div>", escape(name), escape(value));
+        let _ = write!(parameters, "<div><dt>{}</dt><dd>{}</dd></div>", set(name), set(value));
     }
     if panel.zoom > 1 {
         let _ = write!(parameters, "<div><dt>zoom</dt><dd>{} ×</dd></div>", panel.zoom);
     }
     let list = if parameters.is_empty() { String::new() } else { format!("<dl>{parameters}</dl>") };
     format!(
-        "<figure><a href=\"{file}\" class=\"open\" data-caption=\"{caption}\" data-zoom=\"{}\"><img decoding=\"async\" \
-         src=\"{file}\" width=\"{width}\" height=\"{height}\" alt=\"{caption}\"></a><figcaption><p>{caption}{role}</p>{list}\
+        "<figure><a href=\"{file}\" class=\"open\" data-caption=\"{alt}\" data-zoom=\"{}\"><img \
+         src=\"{file}\" {lazy} alt=\"{alt}\"></a><figcaption><p>{caption}{role}</p>{list}\
          </figcaption></figure>\n",
         panel.zoom
     )
@@ -239,12 +272,12 @@ fn measures(measures: &[MeasureRecord]) -> String {
         return String::new();
     }
     let rows = joined(measures, |measure| {
-        let (name, bound) = (escape(&measure.name), escape(&measure.bound.to_string()));
+        let (name, bound) = (set(&measure.name), set(&measure.bound_text()));
         let class = if measure.pass == Some(false) { " class=\"unmet\"" } else { "" };
         let told = if matches!(measure.bound, Bound::NotJudged(_)) { " told" } else { "" };
         format!(
             "<tr{class}><td>{}</td><td>{name}</td><td class=\"number\">{}</td><td class=\"bound{told}\">{bound}</td></tr>",
-            mark(measure.pass),
+            mark(measure),
             value(measure)
         )
     });
@@ -254,19 +287,29 @@ fn measures(measures: &[MeasureRecord]) -> String {
     )
 }
 
-fn table(table: &TableRecord) -> String {
-    let cells = |row: &[String], tag: &str| joined(row, |cell| format!("<{tag}>{}</{tag}>", escape(cell)));
-    let rows = joined(&table.rows, |row| format!("<tr>{}</tr>", cells(row, "td")));
+fn table(head: &[String], rows: &[Vec<String>], caption: &str) -> String {
+    // A column of numbers is aligned right, its head too.
+    let numbers = |column: usize| {
+        let mut cells = rows.iter().filter_map(|row| row.get(column)).filter(|cell| !cell.is_empty()).peekable();
+        cells.peek().is_some() && cells.all(|cell| cell.parse::<f64>().is_ok())
+    };
+    let cells = |row: &[String], tag: &str| {
+        joined(row.iter().enumerate(), |(column, cell)| {
+            let class = if numbers(column) { " class=\"number\"" } else { "" };
+            format!("<{tag}{class}>{}</{tag}>", set(cell))
+        })
+    };
+    let body = joined(rows, |row| format!("<tr>{}</tr>", cells(row, "td")));
     format!(
-        "<div class=\"table\" tabindex=\"0\"><table><thead><tr>{}</tr></thead><tbody>{rows}</tbody></table></div>\n",
-        cells(&table.head, "th")
+        "<div class=\"table\" tabindex=\"0\"><table>{caption}<thead><tr>{}</tr></thead><tbody>{body}</tbody></table></div>\n",
+        cells(head, "th")
     )
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::made::{Made, Table};
+    use crate::made::Made;
     use crate::measure::Measure;
     use crate::panel::Panel;
     use crate::record::Heading;
@@ -279,6 +322,7 @@ mod tests {
             plots: vec![("curve".into(), "<svg id=\"plot\"></svg>".into())],
             tables: vec![Table { name: "t".into(), head: vec!["<h>".into()], rows: vec![vec!["{{css}}".into()]] }],
             measures: vec![Measure::new("<m>", 1.0, "<u>", Bound::AtMost(0.5))],
+            run_tables: Vec::new(),
             note: "a & b".into(),
             caveat: Some("1 > 0.5".into()),
             timings: vec![("secret".into(), 12.345)],
@@ -290,7 +334,7 @@ mod tests {
 
     fn page() -> String {
         let plots = [(("T-1".to_string(), "curve".to_string()), "<svg id=\"plot\"></svg>".to_string())];
-        html(&report(), true, &Plots::from(plots))
+        html(&report(), true, &Beside { plots: plots.into(), ..Beside::default() })
     }
 
     #[test]
@@ -310,11 +354,59 @@ mod tests {
         assert!(page.contains("src=\"T-1/result.png\"") && page.contains("<svg id=\"plot\">"));
         assert!(page.contains("aria-label=\"Wipe between") && page.contains("badge v-caveat"));
         assert!(!page.contains("12.345"), "x8 no times");
-        assert!(page.contains("A quick run") && !html(&report(), false, &Plots::new()).contains("A quick run"));
+        assert!(page.contains("A quick run") && !html(&report(), false, &Beside::default()).contains("A quick run"));
     }
 
     #[test]
     fn an_empty_report_is_a_page_too() {
-        assert!(html(&Report { figures: Vec::new() }, false, &Plots::new()).contains("<b>0</b> figures"));
+        assert!(html(&Report { figures: Vec::new() }, false, &Beside::default()).contains("<b>0</b> figures"));
+    }
+
+    fn one(measures: Vec<Measure>, claim: &str) -> String {
+        let heading = Heading { id: "T-1".into(), paper: "P".into(), title: "T".into(), claim: claim.into() };
+        let made = Made { measures, ..Made::default() };
+        html(&Report { figures: vec![FigureRecord::new(&heading, &made)] }, true, &Beside::default())
+    }
+
+    #[test]
+    fn a_figure_of_which_nothing_is_judged_is_counted_apart() {
+        let page = one(vec![Measure::at_most("m", 1e-3, "", 1.0).full_size(true)], "c");
+        assert!(page.contains("<li><b>1</b> figure</li>"), "not several");
+        assert!(page.contains("<li class=\"v-not-judged\"><b>1</b> not judged</li>"));
+        assert!(!page.contains("</b> reproduced</li>"));
+        assert!(page.contains("aria-label=\"not judged\"") && page.contains("not judged: ≤ 1 is meant for full size"));
+    }
+
+    #[test]
+    fn an_answer_reads_as_a_word() {
+        let page = one(vec![Measure::yes("falls", false)], "c");
+        assert!(page.contains("<td>falls</td><td class=\"number\">no</td><td class=\"bound\">yes</td>"));
+        assert!(!page.contains("yes = 1") && !page.contains("= 1<"));
+    }
+
+    #[test]
+    fn powers_and_greek_are_set() {
+        let page = one(vec![Measure::at_most("tau", 2e-9, "", 1e-6)], "as N^−¾, below 1e-3");
+        assert!(page.contains("as N<sup>−¾</sup>, below 10⁻³") && page.contains("<td>τ</td>"));
+        assert!(page.contains(">2 × 10⁻⁹<") && page.contains("≤ 10⁻⁶"));
+    }
+
+    #[test]
+    fn pictures_keep_their_room_and_load_when_they_are_near() {
+        let page = page();
+        let pictures: Vec<&str> = page.split("<img ").skip(1).filter(|tag| tag.contains("src=")).collect();
+        assert_eq!(pictures.len(), 4, "a wipe of two and two panels");
+        for tag in pictures {
+            let tag = tag.split('>').next().unwrap();
+            assert!(["loading=\"lazy\"", "width=\"8\"", "height=\"4\""].iter().all(|part| tag.contains(part)), "{tag}");
+        }
+    }
+
+    #[test]
+    fn columns_of_numbers_are_aligned_right() {
+        let rows = [vec!["a".to_string(), "-1.5".into()], vec!["b".into(), String::new()]];
+        let text = table(&["name".into(), "n".into()], &rows, "");
+        assert!(text.contains("<th>name</th><th class=\"number\">n</th>"), "{text}");
+        assert!(text.contains("<td>a</td><td class=\"number\">−1.5</td>"), "{text}");
     }
 }

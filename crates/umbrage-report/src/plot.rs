@@ -3,7 +3,7 @@
 //! Ink is `currentColor` and the series' colours are custom properties with fallbacks, so that a plot inside the gallery
 //! follows its theme and a plot opened alone is readable too.
 
-use crate::text::{escape, short};
+use crate::text::{escape, proper, short};
 use std::fmt::Write;
 
 const WIDTH: f64 = 520.0;
@@ -50,45 +50,6 @@ impl Axis {
         };
         at.is_finite().then_some(at)
     }
-}
-
-/// A table as a picture: what changes from run to run has no place among the report's tables. The first column is text, the others are
-/// aligned right.
-pub fn table(title: &str, head: &[&str], rows: &[Vec<String>]) -> String {
-    const ROW: f64 = 22.0;
-    const LETTER: f64 = 7.0;
-    let cell = |row: &[String], column: usize| row.get(column).map_or(0, |text| text.chars().count());
-    let width = |column: usize| {
-        let widest = rows.iter().map(|row| cell(row, column)).max().unwrap_or(0).max(head[column].chars().count());
-        widest as f64 * LETTER + 18.0
-    };
-    let widths: Vec<f64> = (0..head.len()).map(width).collect();
-    let (across, down) = (widths.iter().sum::<f64>() + 16.0, ROW * (rows.len() as f64 + 2.0) + 12.0);
-    let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" font-family=\"sans-serif\" font-size=\"12\" \
-         fill=\"currentColor\" role=\"img\">\n<text x=\"8\" y=\"18\" font-weight=\"bold\">{}</text>\n",
-        short(across, 5),
-        short(down, 5),
-        escape(title)
-    );
-    let heads: Vec<String> = head.iter().map(ToString::to_string).collect();
-    for (index, row) in std::iter::once(&heads).chain(rows).enumerate() {
-        let y = ROW * (index as f64 + 1.0) + 20.0;
-        let mut x = 8.0;
-        for (column, text) in row.iter().enumerate() {
-            let (at, anchor) = if column == 0 { (x, "start") } else { (x + widths[column] - 9.0, "end") };
-            let weight = if index == 0 { " opacity=\"0.7\"" } else { "" };
-            let _ = writeln!(
-                svg,
-                "<text x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\"{weight}>{}</text>",
-                short(at, 5),
-                short(y, 5),
-                escape(text)
-            );
-            x += widths[column];
-        }
-    }
-    svg + "</svg>\n"
 }
 
 /// Points that belong together.
@@ -244,7 +205,7 @@ impl Plot {
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{0}\" \
              font-family=\"system-ui, sans-serif\" font-size=\"14\" fill=\"currentColor\">\n<title>{0}</title>\n\
              <text x=\"{LEFT}\" y=\"22\" font-size=\"15\" font-weight=\"600\">{0}</text>\n",
-            escape(&self.title)
+            escape(&proper(&self.title))
         );
         self.draw_axes(&mut svg, &across, &up, bottom);
         for series in &self.series {
@@ -281,8 +242,8 @@ impl Plot {
             "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n\
              <text transform=\"translate(16 {centre}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
             bottom + 40.0,
-            escape(&self.x.label),
-            escape(&self.y.label)
+            escape(&proper(&self.x.label)),
+            escape(&proper(&self.y.label))
         );
     }
 
@@ -347,7 +308,7 @@ impl Plot {
                 self.colour(series),
                 x + 25.0,
                 y + 4.5,
-                escape(&series.name)
+                escape(&proper(&series.name))
             );
         }
     }

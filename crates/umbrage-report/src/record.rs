@@ -3,7 +3,7 @@
 //! A record holds no time and nothing of the machine, the threads or the storage: it is the same bytes on every run.
 
 use crate::made::{Made, Verdict};
-use crate::measure::{Bound, Measure};
+use crate::measure::{Bound, Kind, Measure};
 use crate::panel::Role;
 use crate::text::{file_stem, rounded, short};
 use serde::{Deserialize, Serialize};
@@ -48,6 +48,9 @@ pub struct FigureRecord {
     pub plots: Vec<String>,
     /// Tables.
     pub tables: Vec<TableRecord>,
+    /// Tables of the run that made it: file stems of JSON files in its folder.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub run_tables: Vec<String>,
     /// Numbers with their bounds.
     pub measures: Vec<MeasureRecord>,
     /// The judgement.
@@ -57,6 +60,9 @@ pub struct FigureRecord {
     /// The measured cause of the bounds that are missed.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub caveat: Option<String>,
+    /// How the run that made it differs from the run that wrote the report; absent where it does not.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub earlier: Option<String>,
 }
 
 /// A picture of a figure.
@@ -105,12 +111,33 @@ pub struct MeasureRecord {
     pub bound: Bound,
     /// Whether the exact value meets the bound; `null` where none is judged.
     pub pass: Option<bool>,
+    /// How value and bound read; absent for numbers.
+    #[serde(skip_serializing_if = "is_number", default)]
+    pub kind: Kind,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+fn is_number(kind: &Kind) -> bool {
+    *kind == Kind::Number
 }
 
 impl MeasureRecord {
+    /// The word for a value that answers a question; `None` where it reads as a number.
+    pub fn word(&self) -> Option<&'static str> {
+        self.value.and_then(|value| self.kind.word(value))
+    }
+
+    /// The bound for people; empty where there is none.
+    pub fn bound_text(&self) -> String {
+        self.bound.text(self.kind)
+    }
+
     /// The value for people, without its unit: four digits, and more where four would seem to contradict the judgement.
     pub fn value_text(&self) -> String {
         let Some(value) = self.value else { return "not a number".into() };
+        if let Some(word) = self.word() {
+            return word.into();
+        }
         let agrees = |digits: &usize| {
             let seen = Measure::new("", rounded(value, *digits), "", self.bound.clone());
             seen.pass() == self.pass
@@ -127,6 +154,7 @@ impl From<&Measure> for MeasureRecord {
             unit: measure.unit.clone(),
             bound: measure.bound.clone(),
             pass: measure.pass(),
+            kind: measure.kind,
         }
     }
 }
@@ -158,11 +186,13 @@ impl FigureRecord {
             panels: panels.collect(),
             plots: made.plots.iter().map(|(name, _)| file_stem(name)).collect(),
             tables: tables.collect(),
+            run_tables: made.run_tables.iter().map(|table| file_stem(&table.name)).collect(),
             measures: made.measures.iter().map(MeasureRecord::from).collect(),
             verdict,
             note: made.note.clone(),
             // A cause of misses says nothing where nothing is missed.
             caveat: made.caveat.clone().filter(|_| verdict == Verdict::Caveat),
+            earlier: None,
         }
     }
 }
@@ -212,6 +242,7 @@ mod tests {
         assert_eq!(text(Measure::within("m", 22.944_444_4, "", 22.944_44, 22.944_45)), "22.94444");
         assert_eq!(text(Measure::at_most("m", 0.030_001, "", 0.03)), "0.030001");
         assert_eq!(text(Measure::at_most("m", f64::NAN, "", 0.03)), "not a number");
+        assert_eq!(text(Measure::yes("m", true)), "yes");
     }
 
     #[test]

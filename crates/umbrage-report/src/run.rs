@@ -1,8 +1,8 @@
 //! Makes figures one after another and writes what a reader opens: `index.html`, `report.json`, `timings.json`.
 
-use crate::folder::{self, Timings};
+use crate::folder::{self, Origin, Timings};
 use crate::made::{Made, Verdict};
-use crate::page;
+use crate::page::{self, Beside};
 use crate::record::{FigureRecord, Heading, Report};
 use anyhow::Context as _;
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
@@ -21,12 +21,14 @@ pub struct Entry<'a> {
 
 /// What a run makes and where it puts it.
 pub struct Run<'a> {
-    /// In the order of the gallery.
+    /// Every figure of the gallery, in its order.
     pub entries: Vec<Entry<'a>>,
+    /// The ids of the figures that are made; none makes all. The others stay on the page if the folder holds them.
+    pub only: Vec<String>,
     /// Smaller pictures and fewer samples: a figure of which nothing is judged is no fault then.
     pub quick: bool,
-    /// Stands for all that the entries' pictures and numbers depend on beside this program: a figure that was made with other
-    /// settings is made again.
+    /// Stands for all that the entries' pictures and numbers depend on beside this program, in words: a figure that was made
+    /// with other settings is made again.
     pub settings: String,
     /// Worker threads; `None` is one a core. They must change no bit.
     pub threads: Option<usize>,
@@ -34,66 +36,86 @@ pub struct Run<'a> {
     pub out: PathBuf,
 }
 
+/// What stands on the page, by the figure's place in the gallery.
+type Standing = BTreeMap<usize, (FigureRecord, Timings)>;
+
 impl Run<'_> {
-    /// Makes what is not there yet, then writes report and gallery.
+    /// Makes what is asked and not there yet. The page and the report in the folder are written anew after each figure that
+    /// is made, so that a run that is stopped leaves them whole; they hold all figures that the folder does, each that
+    /// another build or other settings made marked as such. The report that is returned holds the figures that were asked.
     ///
     /// # Errors
     /// When a figure fails, judges nothing in a full run, or names two of its things alike; when a file cannot be written.
     pub fn make(&self) -> anyhow::Result<Report> {
         std::fs::create_dir_all(&self.out).with_context(|| self.out.display().to_string())?;
         let program = program()?;
+        let origin = Origin { program: &program, settings: &self.settings };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0)).build()?;
-        let progress = Progress::new(self.entries.len());
+        let mut standing: Standing = self
+            .entries
+            .iter()
+            .enumerate()
+            .filter_map(|(place, entry)| Some((place, folder::kept(&self.out, &entry.heading.id, origin)?)))
+            .collect();
+        let asked = |entry: &Entry| self.only.is_empty() || self.only.contains(&entry.heading.id);
+        let progress = Progress::new(self.entries.iter().filter(|entry| asked(entry)).count());
         let mut report = Report { figures: Vec::new() };
-        let mut timings = BTreeMap::new();
-        for entry in &self.entries {
-            let id = &entry.heading.id;
+        for (place, entry) in self.entries.iter().enumerate().filter(|(_, entry)| asked(entry)) {
             progress.begin(&entry.heading);
-            let key = self.key(&program, id);
-            let (record, seconds, fresh) = if let Some((record, seconds)) = folder::reuse(&self.out, id, &key) {
-                (record, seconds, false)
-            } else {
-                let (record, seconds) = pool.install(|| self.make_one(entry, &key)).with_context(|| id.clone())?;
-                (record, seconds, true)
-            };
-            progress.end(&record, &seconds, fresh);
-            timings.insert(id, seconds);
-            report.figures.push(record);
+            let fresh = standing.get(&place).is_none_or(|(record, _)| record.earlier.is_some());
+            if fresh {
+                let made = pool.install(|| self.make_one(entry, origin)).with_context(|| entry.heading.id.clone())?;
+                standing.insert(place, made);
+                self.write_all(&standing)?;
+            }
+            let (record, seconds) = &standing[&place];
+            progress.end(record, seconds, fresh);
+            report.figures.push(record.clone());
         }
-        progress.finish();
-        self.write("timings.json", &(serde_json::to_string_pretty(&timings)? + "\n"))?;
-        self.write("index.html", &page::html(&report, self.quick, &self.plots(&report)?))?;
-        self.write("report.json", &report.json()?)?;
+        progress.finish(standing.len() - report.figures.len());
+        self.write_all(&standing)?;
         Ok(report)
     }
 
-    fn make_one(&self, entry: &Entry, key: &str) -> anyhow::Result<(FigureRecord, Timings)> {
+    fn make_one(&self, entry: &Entry, origin: Origin) -> anyhow::Result<(FigureRecord, Timings)> {
         let start = Instant::now();
         let made = (entry.make)()?;
         let judged = made.measures.iter().any(|measure| measure.pass().is_some());
         anyhow::ensure!(judged || self.quick, "no measure is judged: there is nothing to call reproduced");
         let mut timings = vec![("total".to_string(), start.elapsed().as_secs_f64())];
         timings.extend(made.timings.iter().cloned());
-        let record = folder::write(&self.out, &entry.heading, &made, key, &timings)?;
+        let record = folder::write(&self.out, &entry.heading, &made, origin, &timings)?;
         Ok((record, timings))
     }
 
-    /// Stands for everything that a figure's bytes could depend on. The threads are left out.
-    fn key(&self, program: &str, id: &str) -> String {
-        folder::fingerprint(&(program, id, &self.settings))
+    /// Writes what a reader opens.
+    fn write_all(&self, standing: &Standing) -> anyhow::Result<()> {
+        let timings: BTreeMap<&str, &Timings> =
+            standing.values().map(|(record, seconds)| (record.id.as_str(), seconds)).collect();
+        let report = Report { figures: standing.values().map(|(record, _)| record.clone()).collect() };
+        self.write("timings.json", &(serde_json::to_string_pretty(&timings)? + "\n"))?;
+        self.write("index.html", &page::html(&report, self.quick, &self.beside(&report)?))?;
+        self.write("report.json", &report.json()?)
     }
 
-    /// The SVG texts that the gallery holds, by figure and name.
-    fn plots(&self, report: &Report) -> anyhow::Result<BTreeMap<(String, String), String>> {
-        let mut plots = BTreeMap::new();
+    /// What the gallery holds of the figures' folders, by figure and name.
+    fn beside(&self, report: &Report) -> anyhow::Result<Beside> {
+        let mut beside = Beside::default();
         for figure in &report.figures {
+            let read = |name: &str, extension: &str| {
+                let path = self.out.join(&figure.id).join(format!("{name}.{extension}"));
+                std::fs::read_to_string(&path).with_context(|| path.display().to_string())
+            };
             for name in &figure.plots {
-                let path = self.out.join(&figure.id).join(format!("{name}.svg"));
-                let svg = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
-                plots.insert((figure.id.clone(), name.clone()), svg);
+                beside.plots.insert((figure.id.clone(), name.clone()), read(name, "svg")?);
+            }
+            for name in &figure.run_tables {
+                let table =
+                    serde_json::from_str(&read(name, "json")?).with_context(|| format!("{} {name}", figure.id))?;
+                beside.tables.insert((figure.id.clone(), name.clone()), table);
             }
         }
-        Ok(plots)
+        Ok(beside)
     }
 
     fn write(&self, name: &str, text: &str) -> anyhow::Result<()> {
@@ -140,7 +162,7 @@ impl Progress {
         }
         if record.verdict == Verdict::Missed {
             for measure in record.measures.iter().filter(|measure| measure.pass == Some(false)) {
-                let (name, value, bound) = (&measure.name, measure.value_text(), &measure.bound);
+                let (name, value, bound) = (&measure.name, measure.value_text(), measure.bound_text());
                 let _ = write!(line, "\n{:23}{name} is {value}, must be {bound}", "");
             }
         }
@@ -152,19 +174,28 @@ impl Progress {
         self.bar.inc(1);
     }
 
-    fn finish(&self) {
+    fn finish(&self, others: usize) {
         self.bar.finish_and_clear();
+        if others > 0 {
+            eprintln!("{} from earlier runs on the page", figures(others));
+        }
     }
+}
+
+/// So many figures, as people say it.
+pub(crate) fn figures(count: usize) -> String {
+    format!("{count} figure{}", if count == 1 { "" } else { "s" })
 }
 
 /// One line about a report, and where to look.
 pub fn summary(report: &Report, out: &Path) -> String {
     format!(
-        "{} figures: {} reproduced, {} with a caveat, {} missed. Open {}",
-        report.figures.len(),
+        "{}: {} reproduced, {} with a caveat, {} missed, {} not judged. Open {}",
+        figures(report.figures.len()),
         report.count(Verdict::Reproduced),
         report.count(Verdict::Caveat),
         report.count(Verdict::Missed),
+        report.count(Verdict::NotJudged),
         out.join("index.html").display()
     )
 }
@@ -172,6 +203,7 @@ pub fn summary(report: &Report, out: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::made::Table;
     use crate::measure::Measure;
     use crate::panel::{Panel, Role};
     use glam::UVec2;
@@ -194,7 +226,14 @@ mod tests {
         let heading =
             Heading { id: "T-1".into(), paper: "Umbrage".into(), title: "Title".into(), claim: "Claim".into() };
         let entries = vec![Entry { heading, make: Box::new(move || Ok(make())) }];
-        Run { entries, quick: true, settings: format!("seed {seed}"), threads: Some(threads), out: out.into() }
+        Run {
+            entries,
+            only: Vec::new(),
+            quick: true,
+            settings: format!("seed {seed}"),
+            threads: Some(threads),
+            out: out.into(),
+        }
     }
 
     /// A folder of this test alone, empty at the start.
@@ -242,6 +281,83 @@ mod tests {
         let failure = format!("{:#}", run(alone, &out, 1, 0).make().unwrap_err());
         assert_eq!(failure, "T-1: panel result is compared with truth, which the figure does not have");
         assert!(!out.join("T-1").exists() && !out.join("report.json").exists());
+        std::fs::remove_dir_all(&out).unwrap();
+    }
+
+    fn many<'a>(ids: &[&str], only: &[&str], out: &Path, quick: bool) -> Run<'a> {
+        let entry = |id: &&str| {
+            let heading = Heading { id: (*id).into(), paper: "P".into(), title: "T".into(), claim: "C".into() };
+            Entry { heading, make: Box::new(|| Ok(result())) }
+        };
+        Run {
+            entries: ids.iter().map(entry).collect(),
+            only: only.iter().map(ToString::to_string).collect(),
+            quick,
+            settings: format!("quick {quick}"),
+            threads: Some(1),
+            out: out.into(),
+        }
+    }
+
+    fn on_page(out: &Path) -> Vec<(String, bool)> {
+        let report: Report = serde_json::from_slice(&std::fs::read(out.join("report.json")).unwrap()).unwrap();
+        let page = std::fs::read_to_string(out.join("index.html")).unwrap();
+        assert!(report.figures.iter().all(|figure| page.contains(&format!("<article id=\"{}\"", figure.id))));
+        report.figures.into_iter().map(|figure| (figure.id, figure.earlier.is_some())).collect()
+    }
+
+    #[test]
+    fn a_run_of_some_figures_keeps_the_others_on_the_page_and_in_the_report() {
+        let out = folder("only");
+        let ids = ["A", "B", "C"];
+        let now = |id: &str| (id.to_string(), false);
+        many(&ids, &["C"], &out, true).make().unwrap();
+        assert_eq!(on_page(&out), [now("C")]);
+        let asked = many(&ids, &["A"], &out, true).make().unwrap();
+        assert_eq!(asked.figures.len(), 1, "what is judged is what was asked");
+        assert_eq!(on_page(&out), [now("A"), now("C")], "in the order of the gallery");
+        many(&ids, &["B"], &out, false).make().unwrap();
+        assert_eq!(
+            on_page(&out),
+            [("A".into(), true), now("B"), ("C".into(), true)],
+            "what other settings made is marked"
+        );
+        let page = std::fs::read_to_string(out.join("index.html")).unwrap();
+        assert!(page.contains("made with other settings: quick true"));
+        umbrage_io::write_bytes(&out.join("A/curve.svg"), b"torn").unwrap();
+        many(&ids, &["B"], &out, false).make().unwrap();
+        assert_eq!(on_page(&out), [now("B"), ("C".into(), true)], "a torn figure is not shown");
+        many(&ids, &[], &out, true).make().unwrap();
+        assert_eq!(on_page(&out), ids.map(now));
+        std::fs::remove_dir_all(&out).unwrap();
+    }
+
+    #[test]
+    fn a_run_that_fails_leaves_what_it_made_on_the_page() {
+        let out = folder("fails");
+        let mut run = many(&["A", "B", "C"], &[], &out, true);
+        run.entries[1].make = Box::new(|| anyhow::bail!("out of paper"));
+        assert_eq!(format!("{:#}", run.make().unwrap_err()), "B: out of paper");
+        assert_eq!(on_page(&out), [("A".to_string(), false)]);
+        std::fs::remove_dir_all(&out).unwrap();
+    }
+
+    #[test]
+    fn tables_of_a_run_are_on_the_page_and_not_in_the_report() {
+        let out = folder("table");
+        let table = || Table { name: "seconds".into(), head: vec!["s".into()], rows: vec![vec!["12.75".into()]] };
+        run(|| Made { run_tables: vec![table()], ..result() }, &out, 1, 0).make().unwrap();
+        let text = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+        assert!(text("index.html").contains("12.75") && !text("report.json").contains("12.75"));
+        std::fs::remove_dir_all(&out).unwrap();
+    }
+
+    #[test]
+    fn one_figure_is_not_said_to_be_several() {
+        let out = folder("one");
+        let report = many(&["A"], &[], &out, true).make().unwrap();
+        let line = summary(&report, Path::new("out"));
+        assert!(line.starts_with("1 figure: 1 reproduced, 0 with a caveat, 0 missed, 0 not judged."), "{line}");
         std::fs::remove_dir_all(&out).unwrap();
     }
 }

@@ -99,11 +99,12 @@ fn is_unseen(patch: &Patch, view: &View) -> bool {
     let eyes = patch.control.iter().flatten().map(|at| view.world_to_eye().transform_point3(at.as_dvec3()));
     // Distances beyond each side, in a scale of its own; for a perspective view only their signs mean anything.
     let beyond = eyes.map(|eye| match view.projection() {
-        Projection::Orthographic { half } => {
-            [eye.x - half.x, -eye.x - half.x, eye.y - half.y, -eye.y - half.y, f64::NEG_INFINITY]
+        Projection::Orthographic { half, shift } => {
+            let (low, high) = (half * (1.0 + shift), half * (1.0 - shift));
+            [eye.x - high.x, -eye.x - low.x, eye.y - high.y, -eye.y - low.y, f64::NEG_INFINITY]
         }
-        Projection::Perspective { k } => {
-            let at = k * eye.truncate();
+        Projection::Perspective { k, shift } => {
+            let at = k * eye.truncate() - shift * eye.z;
             [at.x + eye.z, eye.z - at.x, at.y + eye.z, eye.z - at.y, eye.z]
         }
     });
@@ -115,8 +116,8 @@ fn is_unseen(patch: &Patch, view: &View) -> bool {
 fn texels_per_world(patch: &Patch, view: &View) -> f64 {
     let half_size = view.size().as_dvec2() * 0.5;
     match view.projection() {
-        Projection::Orthographic { half } => (half_size / half).max_element(),
-        Projection::Perspective { k } => {
+        Projection::Orthographic { half, .. } => (half_size / half).max_element(),
+        Projection::Perspective { k, .. } => {
             let eyes = patch.control.iter().flatten().map(|at| view.world_to_eye().transform_point3(at.as_dvec3()));
             let (mut nearest, mut steepest) = (f64::INFINITY, 0f64);
             for eye in eyes {

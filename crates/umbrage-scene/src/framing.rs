@@ -63,10 +63,16 @@ impl Ball {
             return false;
         }
         match view.projection() {
-            Projection::Orthographic { half } => !beyond(eye.x.abs() - half.x) && !beyond(eye.y.abs() - half.y),
-            Projection::Perspective { k } => {
-                let side = |at: f64, k: f64| (at.abs() * k + eye.z) / k.hypot(1.0);
-                !beyond(side(eye.x, k.x)) && !beyond(side(eye.y, k.y))
+            Projection::Orthographic { half, shift } => {
+                let from_middle = (eye.truncate() + half * shift).abs();
+                !beyond(from_middle.x - half.x) && !beyond(from_middle.y - half.y)
+            }
+            Projection::Perspective { k, shift } => {
+                // The planes of two opposite sides: ±k·x + (1 ∓ shift)·z = 0.
+                let side = |at: f64, k: f64, far: f64| (at * k + far * eye.z) / k.hypot(far);
+                let beyond =
+                    |at: f64, k: f64, shift: f64| beyond(side(at, k, 1.0 - shift)) || beyond(side(-at, k, 1.0 + shift));
+                !beyond(eye.x, k.x, shift.x) && !beyond(eye.y, k.y, shift.y)
             }
         }
     }

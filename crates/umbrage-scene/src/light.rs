@@ -1,6 +1,6 @@
 use crate::tree::{Emission, Sight, Tree};
 use glam::{DVec3, UVec2, Vec3};
-use umbrage_plane::{Rules, View, ViewError};
+use umbrage_plane::{Rules, SpotView, View, ViewError, up_for};
 
 /// A light: where it stands and what it sees, its colour, whether it casts shadows.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,10 +58,9 @@ impl Light {
         far: f64,
         size: UVec2,
     ) -> Result<Self, ViewError> {
-        let mut light = Self::point(name, position, target, full_angle_deg, near, far, size)?;
-        let tan_half = (0.5 * full_angle_deg.to_radians()).tan();
-        light.view = light.view.with_rules(Rules::SPOT).with_cone(Some(tan_half))?;
-        Ok(light)
+        let full_angle_radians = full_angle_deg.to_radians();
+        let view = View::spot(SpotView { eye: position, target, up: None, full_angle_radians, near, far, size })?;
+        Ok(Self::new(name, &view))
     }
 
     /// A point light that shines everywhere but whose one map sees only a frustum of `fov_deg` degrees toward `target`. What
@@ -150,9 +149,4 @@ impl Light {
             _ => true,
         }
     }
-}
-
-/// The up of a map: y is up in the world unless the light shines nearly along it (within about 2.6°).
-fn up_for(direction: DVec3) -> DVec3 {
-    if direction.normalize_or_zero().y.abs() < 0.999 { DVec3::Y } else { DVec3::Z }
 }

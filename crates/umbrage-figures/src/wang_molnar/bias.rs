@@ -116,7 +116,8 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
             f64::from(found),
             "",
             f64::from(u8::from(hopeless)),
-        ));
+        )
+        .yes_no());
         rows.push(vec![
             columns.to_string(),
             format!("{texel:.2}"),

@@ -268,7 +268,7 @@ fn cost(cx: &Context) -> anyhow::Result<Made> {
             ("time of picture and pass 1 does", (0.8..=1.2).contains(&whole)),
             ("pass 1 takes less than the picture", cheaper),
         ] {
-            made.measures.push(Measure::exactly(what, f64::from(u8::from(yes)), "yes = 1", 1.0));
+            made.measures.push(Measure::yes(what, yes));
         }
         made.caveat = Some(
             "Pass 1 and the fragments of both views grow linearly; the picture's own time does not yet, because shading its pixels costs \

@@ -103,11 +103,5 @@ fn projection(ndc: DMat4, camera: DMat4) -> Option<Projection> {
         && close(&x, DVec4::X * a + middle * 0.5)
         && close(&y, DVec4::NEG_Y * b + middle * 0.5);
     let scales = DVec2::new(a, b) * 2.0;
-    fits.then(|| {
-        if perspective {
-            Projection::Perspective { k: scales }
-        } else {
-            Projection::Orthographic { half: 1.0 / scales }
-        }
-    })
+    fits.then(|| if perspective { Projection::perspective(scales) } else { Projection::orthographic(1.0 / scales) })
 }

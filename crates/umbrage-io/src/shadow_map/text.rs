@@ -17,8 +17,8 @@ pub(crate) const SOFTWARE: &str = "umbrage";
 fn of_view(view: &View, stored: Stored) -> String {
     let numbers = |numbers: &[f64]| numbers.iter().map(|n| format!("{n:?}")).collect::<Vec<_>>().join(" ");
     let (projection, scale) = match view.projection() {
-        Projection::Perspective { k } => ("perspective", k),
-        Projection::Orthographic { half } => ("orthographic", half),
+        Projection::Perspective { k, .. } => ("perspective", k),
+        Projection::Orthographic { half, .. } => ("orthographic", half),
     };
     let kind = match view.kind() {
         Kind::Axial => "axial",
@@ -38,6 +38,11 @@ fn of_view(view: &View, stored: Stored) -> String {
     };
     line("world_to_eye", &numbers(&view.world_to_eye().to_cols_array()));
     line(projection, &numbers(&scale.to_array()));
+    // A view about its axis is written as it was before there were others, so that old readers read it.
+    let shift = view.projection().shift();
+    if shift != DVec2::ZERO {
+        line("shift", &numbers(&shift.to_array()));
+    }
     line("near", &numbers(&[view.near()]));
     line("far", &numbers(&[view.far()]));
     line("size", &format!("{} {}", view.size().x, view.size().y));
@@ -89,10 +94,12 @@ fn parse(lines: &str) -> Result<Description, Fault> {
     let need = |name: &str| line(name).ok_or_else(|| fault(name, "missing", "a view needs it"));
     let one = |name: &str| Ok::<f64, Fault>(numbers::<1>(name, &need(name)?)?[0]);
     let matrix = DMat4::from_cols_array(&numbers("world_to_eye", &need("world_to_eye")?)?);
+    let shift = line("shift").map(|shift| numbers("shift", &shift)).transpose()?;
+    let shift = shift.map_or(DVec2::ZERO, DVec2::from_array);
     let projection = if let Some(k) = line("perspective") {
-        Projection::Perspective { k: DVec2::from_array(numbers("perspective", &k)?) }
+        Projection::Perspective { k: DVec2::from_array(numbers("perspective", &k)?), shift }
     } else {
-        Projection::Orthographic { half: DVec2::from_array(numbers("orthographic", &need("orthographic")?)?) }
+        Projection::Orthographic { half: DVec2::from_array(numbers("orthographic", &need("orthographic")?)?), shift }
     };
     let size = need("size")?;
     let sides = size.split_once(' ').and_then(|(x, y)| Some(UVec2::new(x.parse().ok()?, y.parse().ok()?)));

@@ -49,8 +49,8 @@ fn as_written(bytes: &[u8]) -> DMat4 {
 
 fn scales(view: &View) -> glam::DVec2 {
     match view.projection() {
-        Projection::Perspective { k } => k,
-        Projection::Orthographic { half } => half,
+        Projection::Perspective { k, .. } => k,
+        Projection::Orthographic { half, .. } => half,
     }
 }
 

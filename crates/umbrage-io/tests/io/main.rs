@@ -10,10 +10,10 @@ mod paged_faults;
 mod pictures;
 mod shadow_maps;
 
-use glam::{DVec3, UVec2};
+use glam::{DVec3, IVec2, UVec2};
 use std::path::PathBuf;
 use umbrage_depth::Raw;
-use umbrage_plane::{Kind, Rules, Sampling, View};
+use umbrage_plane::{Kind, Rules, Sampling, TexelRect, View};
 
 /// An empty folder of this test's own.
 fn folder(test: &str) -> PathBuf {
@@ -36,6 +36,12 @@ fn sun(size: UVec2) -> View {
     View::orthographic(eye, target, DVec3::Z, 20.3, -1.5, 50.0, size).expect("valid")
 }
 
+/// As large a part of the plane that a view shows, but off its axis.
+fn windowed(view: View) -> View {
+    let corner = IVec2::new(3, -5);
+    view.window(TexelRect::new(corner, corner + view.size().as_ivec2())).expect("valid")
+}
+
 /// Every kind of view that a file must keep.
 fn views(size: UVec2) -> Vec<View> {
     [Kind::Axial, Kind::Screen, Kind::Radial]
@@ -45,6 +51,8 @@ fn views(size: UVec2) -> Vec<View> {
                 spot(size).with_kind(kind),
                 sun(size).with_kind(kind).with_sampling(Sampling::Jittered { seed: 0xFEED_BEEF }),
                 spot(size).with_kind(kind).with_rules(Rules::VOLUME).with_cone(None).unwrap(),
+                windowed(spot(size)).with_kind(kind),
+                windowed(sun(size)).with_kind(kind),
             ]
         })
         .collect()

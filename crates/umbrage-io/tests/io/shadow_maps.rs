@@ -142,8 +142,8 @@ fn foreign_files_are_read_from_their_matrices() {
             assert_eq!(found.rules(), &Rules::OPEN);
             assert!(found.world_to_eye().abs_diff_eq(view.world_to_eye(), 1e-4));
             let scale = |view: &View| match view.projection() {
-                Projection::Perspective { k } => k,
-                Projection::Orthographic { half } => half,
+                Projection::Perspective { k, .. } => k,
+                Projection::Orthographic { half, .. } => half,
             };
             assert_eq!(found.is_perspective(), view.is_perspective());
             assert!((scale(&found) / scale(&view) - 1.0).length() < 1e-5);

@@ -79,8 +79,8 @@ fn test<M: DepthMap>(light: &ShadowMap<Williams, M>, screen: DVec3, key: Key) ->
     match view.receiver(&seen) {
         Ok(receiver) => {
             let depth = if view.kind() == Kind::Screen { screen.z as f32 } else { receiver.depth };
-            let receiver =
-                Receiver { footprint: Footprint::point(texel.as_vec2()), depth, slope: UNKNOWN_SLOPE, ..receiver };
+            let footprint = Footprint::point(texel.as_vec2());
+            let receiver = Receiver { footprint, texel, depth, slope: UNKNOWN_SLOPE, ..receiver };
             light.fraction_of(&receiver, key)
         }
         Err(_) => light.fraction(&seen, key),

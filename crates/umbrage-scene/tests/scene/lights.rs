@@ -129,9 +129,15 @@ fn a_directional_target_is_midway_in_its_range_and_in_the_middle_of_its_map() {
 fn lights_that_cannot_be() {
     assert!(matches!(
         Light::directional("sun", DVec3::ZERO, DVec3::ZERO, 1.0, 0.0, 1.0, SIZE),
-        Err(ViewError::Placement(_))
+        Err(ViewError::NoDirection { .. })
     ));
-    assert!(matches!(Light::spot("spot", DVec3::Y, DVec3::ZERO, 180.0, 1.0, 2.0, SIZE), Err(ViewError::Scale { .. })));
-    assert!(matches!(Light::point("point", DVec3::Y, DVec3::Y, 60.0, 1.0, 2.0, SIZE), Err(ViewError::Placement(_))));
-    assert!(matches!(Light::point("point", DVec3::Y, DVec3::ZERO, 60.0, 0.0, 2.0, SIZE), Err(ViewError::Range { .. })));
+    assert!(matches!(
+        Light::spot("spot", DVec3::Y, DVec3::ZERO, 180.0, 1.0, 2.0, SIZE),
+        Err(ViewError::FieldOfView { .. })
+    ));
+    assert!(matches!(
+        Light::point("point", DVec3::Y, DVec3::Y, 60.0, 1.0, 2.0, SIZE),
+        Err(ViewError::NoDirection { .. })
+    ));
+    assert!(matches!(Light::point("point", DVec3::Y, DVec3::ZERO, 60.0, 0.0, 2.0, SIZE), Err(ViewError::NearAtEye(_))));
 }

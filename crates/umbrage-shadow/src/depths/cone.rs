@@ -53,7 +53,7 @@ impl BiasCone {
 impl ReceiverDepth for BiasCone {
     #[inline(always)]
     fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
-        let tip = view.eye_to_texel(receiver.eye);
+        let tip = receiver.texel;
         let world = receiver.texel_world.as_dvec2();
         let (column, row) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
         let mut depths = [0.0; 16];
@@ -70,7 +70,7 @@ impl ReceiverDepth for BiasCone {
 
     #[inline(always)]
     fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
-        let tip = view.eye_to_texel(receiver.eye);
+        let tip = receiver.texel;
         let (low, high) = (rect.min.as_dvec2() - tip, rect.max.as_dvec2() - tip);
         let reach = low.abs().max(high.abs()) * receiver.texel_world.as_dvec2();
         let inside = DVec2::ZERO.clamp(low, high) * receiver.texel_world.as_dvec2();

@@ -90,6 +90,8 @@ impl<P: Pattern> LatLong<P> {
         Receiver {
             kind: Kind::Radial,
             footprint,
+            texel: centre,
+            axes: footprint.axes(),
             depth: distance as f32,
             texel_world: (step * DVec2::new(2.0 * level, 1.0)).as_vec2(),
             facing: facing as f32,

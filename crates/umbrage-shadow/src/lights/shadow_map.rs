@@ -5,8 +5,11 @@ use crate::{Filter, Probe, Query};
 use fearless_simd::Simd;
 use glam::Vec3;
 use umbrage_depth::{DepthMap, Translucent};
-use umbrage_plane::{Receiver, SurfacePoint, vectorized};
+use umbrage_plane::{Receiver, SurfacePoint, Where, vectorized};
 use umbrage_sample::Key;
+
+/// Points that are brought into the light's space together: enough for a call to cost nothing, few enough to stay in the cache.
+const TOGETHER: usize = 16;
 
 /// A filter over a map; the map owns its view.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,17 +65,22 @@ fn batch<S: Simd, F: Filter, M: DepthMap, P: Probe>(
 ) {
     let (filter, map) = (&shadow.filter, &shadow.map);
     let view = map.view();
-    for (point, fraction) in at.iter().zip(out) {
-        *fraction = match view.receiver(point) {
-            Ok(receiver) => {
-                let key = key.region(point.region);
-                Query::new(simd, map, &receiver, key, probe).of_channel(channel).ask(filter)
-            }
-            Err(place) => {
-                probe.placed(place);
-                answer(view.rules().verdict(place)).unwrap_or(0.0)
-            }
-        };
+    let mut seen = [Err(Where::Behind); TOGETHER];
+    for (points, fractions) in at.chunks(TOGETHER).zip(out.chunks_mut(TOGETHER)) {
+        let seen = &mut seen[..points.len()];
+        view.receivers(points, seen);
+        for ((point, seen), fraction) in points.iter().zip(seen).zip(fractions) {
+            *fraction = match seen {
+                Ok(receiver) => {
+                    let key = key.region(point.region);
+                    Query::new(simd, map, receiver, key, probe).of_channel(channel).ask(filter)
+                }
+                Err(place) => {
+                    probe.placed(*place);
+                    answer(view.rules().verdict(*place)).unwrap_or(0.0)
+                }
+            };
+        }
     }
 }
 

@@ -1,0 +1,241 @@
+//! Many receivers at once. Every step is the one of [`View::receiver`], in its order of operations, over arrays of eight: so
+//! that a compiler makes vector instructions of it, and the same bits.
+
+#![expect(clippy::needless_range_loop, reason = "one index names a lane in several arrays")]
+
+use crate::{Footprint, Kind, Projection, Receiver, SurfacePoint, View, Where, vectorized};
+use glam::{DMat4, DVec2, DVec3, Vec2, Vec3};
+use std::array::from_fn;
+
+/// Points that are worked on together.
+const LANES: usize = 8;
+
+type Lanes = [f64; LANES];
+
+/// Eight vectors, coordinate by coordinate.
+#[derive(Clone, Copy)]
+struct Lanes3 {
+    x: Lanes,
+    y: Lanes,
+    z: Lanes,
+}
+
+impl Lanes3 {
+    #[inline(always)]
+    fn gathered(of: impl Fn(usize) -> DVec3) -> Self {
+        let mut all = Self { x: [0.0; LANES], y: [0.0; LANES], z: [0.0; LANES] };
+        for i in 0..LANES {
+            let one = of(i);
+            (all.x[i], all.y[i], all.z[i]) = (one.x, one.y, one.z);
+        }
+        all
+    }
+
+    #[inline(always)]
+    fn at(&self, lane: usize) -> DVec3 {
+        DVec3::new(self.x[lane], self.y[lane], self.z[lane])
+    }
+
+    /// [`DMat4::transform_vector3`] of each.
+    #[inline(always)]
+    fn turned(&self, by: &DMat4) -> Self {
+        let mut all = *self;
+        for i in 0..LANES {
+            let (x, y, z) = (self.x[i], self.y[i], self.z[i]);
+            all.x[i] = by.z_axis.x * z + (by.y_axis.x * y + by.x_axis.x * x);
+            all.y[i] = by.z_axis.y * z + (by.y_axis.y * y + by.x_axis.y * x);
+            all.z[i] = by.z_axis.z * z + (by.y_axis.z * y + by.x_axis.z * x);
+        }
+        all
+    }
+
+    /// Each plus the other's.
+    #[inline(always)]
+    fn plus(&self, other: &Self) -> Self {
+        let mut all = *self;
+        for i in 0..LANES {
+            all.x[i] += other.x[i];
+            all.y[i] += other.y[i];
+            all.z[i] += other.z[i];
+        }
+        all
+    }
+
+    /// [`DVec3::dot`] of each with the other's.
+    #[inline(always)]
+    fn dot(&self, other: &Self) -> Lanes {
+        let mut all = [0.0; LANES];
+        for i in 0..LANES {
+            all[i] = self.x[i] * other.x[i] + self.y[i] * other.y[i] + self.z[i] * other.z[i];
+        }
+        all
+    }
+}
+
+/// What a view makes of eight points of its eye space.
+struct Seen {
+    facing: Lanes,
+    slope: Lanes,
+    depth: [f32; LANES],
+    texel_world: [Vec2; LANES],
+}
+
+impl View {
+    /// [`View::receiver`] of every point, bit for bit, in a fraction of the time when there are many: `out[i]` is that of `at[i]`.
+    ///
+    /// # Panics
+    /// When `at` and `out` are not of one length.
+    pub fn receivers(&self, at: &[SurfacePoint], out: &mut [Result<Receiver, Where>]) {
+        assert_eq!(at.len(), out.len(), "as many receivers as points");
+        vectorized!(_ => self.fill(at, out));
+    }
+
+    #[inline(always)]
+    fn fill(&self, at: &[SurfacePoint], out: &mut [Result<Receiver, Where>]) {
+        let (points, rest) = at.as_chunks::<LANES>();
+        let (seen, seen_rest) = out.as_chunks_mut::<LANES>();
+        for (points, seen) in points.iter().zip(seen) {
+            self.eight(points, seen);
+        }
+        for (point, seen) in rest.iter().zip(seen_rest) {
+            *seen = self.receiver(point);
+        }
+    }
+
+    #[inline(always)]
+    fn eight(&self, at: &[SurfacePoint; LANES], out: &mut [Result<Receiver, Where>; LANES]) {
+        let eye = Lanes3::gathered(|i| at[i].position).turned(&self.world_to_eye).plus(&self.origin());
+        let normal = Lanes3::gathered(|i| at[i].normal.as_dvec3()).turned(&self.world_to_eye);
+        let Seen { facing, slope, depth, texel_world } = self.seen(&eye, &normal);
+        let texels = self.texels(&eye);
+        let (corners, in_front) = self.corners(at, &eye);
+        for i in 0..LANES {
+            let own = eye.at(i);
+            out[i] = self.reached(-own.z).map(|()| {
+                let texel = texels[i];
+                let [first, second, third, _] = at[i].corner_offsets;
+                let footprint = if second == first && third == first {
+                    Footprint::point(texel.as_vec2())
+                } else if in_front[i] {
+                    self.capped(from_fn(|corner| corners[corner][i]), texel.as_vec2())
+                } else {
+                    self.footprint(&at[i], own, texel.as_vec2())
+                };
+                Receiver {
+                    kind: self.kind,
+                    footprint,
+                    texel,
+                    axes: footprint.axes(),
+                    depth: depth[i],
+                    texel_world: texel_world[i],
+                    facing: facing[i] as f32,
+                    slope: if slope[i].is_nan() { f32::INFINITY } else { slope[i] as f32 },
+                    object: at[i].object,
+                    eye: own,
+                    normal: normal.at(i),
+                }
+            });
+        }
+    }
+
+    /// The shift of world to eye space, for each.
+    #[inline(always)]
+    fn origin(&self) -> Lanes3 {
+        Lanes3::gathered(|_| self.world_to_eye.w_axis.truncate())
+    }
+
+    /// [`View::eye_to_texel`] of each.
+    #[inline(always)]
+    fn texels(&self, eye: &Lanes3) -> [DVec2; LANES] {
+        let mut all = [DVec2::ZERO; LANES];
+        for i in 0..LANES {
+            all[i] = self.eye_to_texel(eye.at(i));
+        }
+        all
+    }
+
+    /// The images of the four corners, and whether all of a point's corners are far enough in front of the light for them to
+    /// mean anything.
+    #[inline(always)]
+    fn corners(&self, at: &[SurfacePoint; LANES], eye: &Lanes3) -> ([[Vec2; LANES]; 4], [bool; LANES]) {
+        let mut in_front = [true; LANES];
+        let mut images = [[Vec2::ZERO; LANES]; 4];
+        if at.iter().all(|point| point.corner_offsets == [Vec3::ZERO; 4]) {
+            return (images, in_front);
+        }
+        for (corner, images) in images.iter_mut().enumerate() {
+            let offset = Lanes3::gathered(|i| at[i].corner_offsets[corner].as_dvec3());
+            let place = eye.plus(&offset.turned(&self.world_to_eye));
+            if self.is_perspective() {
+                for i in 0..LANES {
+                    in_front[i] &= -place.z[i] >= -eye.z[i] * (1.0 / 16.0);
+                }
+            }
+            let texels = self.texels(&place);
+            for i in 0..LANES {
+                images[i] = texels[i].as_vec2();
+            }
+        }
+        (images, in_front)
+    }
+
+    #[inline(always)]
+    fn seen(&self, eye: &Lanes3, normal: &Lanes3) -> Seen {
+        let mut toward = Lanes3 { x: [0.0; LANES], y: [0.0; LANES], z: [1.0; LANES] };
+        let mut along = normal.z;
+        let mut slope = [0.0; LANES];
+        if self.is_perspective() {
+            let mut ray = *eye;
+            for i in 0..LANES {
+                let zeta = -eye.z[i];
+                (ray.x[i], ray.y[i], ray.z[i]) = (-eye.x[i] / zeta, -eye.y[i] / zeta, -eye.z[i] / zeta);
+            }
+            along = normal.dot(&ray);
+            let squared = ray.dot(&ray);
+            for i in 0..LANES {
+                let shrink = 1.0 / squared[i].sqrt();
+                (toward.x[i], toward.y[i], toward.z[i]) = (ray.x[i] * shrink, ray.y[i] * shrink, ray.z[i] * shrink);
+            }
+        }
+        for i in 0..LANES {
+            slope[i] = (normal.x[i] * normal.x[i] + normal.y[i] * normal.y[i]).sqrt() / along[i].abs();
+        }
+        Seen { facing: normal.dot(&toward), slope, depth: self.depths(eye), texel_world: self.texels_world(eye) }
+    }
+
+    /// [`View::depth`] of each.
+    #[inline(always)]
+    fn depths(&self, eye: &Lanes3) -> [f32; LANES] {
+        let mut all = [0.0; LANES];
+        match self.kind {
+            Kind::Axial => {
+                for i in 0..LANES {
+                    all[i] = -eye.z[i] as f32;
+                }
+            }
+            Kind::Screen | Kind::Radial => {
+                for i in 0..LANES {
+                    all[i] = self.depth(eye.at(i));
+                }
+            }
+        }
+        all
+    }
+
+    /// [`View::texel_world`] of each.
+    #[inline(always)]
+    fn texels_world(&self, eye: &Lanes3) -> [Vec2; LANES] {
+        let size = self.size.as_dvec2();
+        let mut all = [Vec2::ZERO; LANES];
+        match self.projection {
+            Projection::Perspective { k, .. } => {
+                let below = k * size;
+                for i in 0..LANES {
+                    all[i] = (2.0 * -eye.z[i] / below).as_vec2();
+                }
+            }
+            Projection::Orthographic { .. } => all = [self.texel_world(1.0).as_vec2(); LANES],
+        }
+        all
+    }
+}
