@@ -111,13 +111,15 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
             wanted + 0.5 * texel,
         ));
         let found = u8::from(least.1.1 > 0.5);
-        measures.push(Measure::exactly(
-            &format!("{name}: no bias serves both floor and foot (1 yes; D-10)"),
-            f64::from(found),
-            "",
-            f64::from(u8::from(hopeless)),
-        )
-        .yes_no());
+        measures.push(
+            Measure::exactly(
+                &format!("{name}: no bias serves both floor and foot (1 yes; D-10)"),
+                f64::from(found),
+                "",
+                f64::from(u8::from(hopeless)),
+            )
+            .yes_no(),
+        );
         rows.push(vec![
             columns.to_string(),
             format!("{texel:.2}"),
