@@ -35,7 +35,7 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         Axis::linear("fraction in false shadow"),
     );
     for (index, (low, high)) in [(0.0, 0.0), (0.2, 0.3), (0.3, 0.4)].into_iter().enumerate() {
-        let filter = presets::reeves87().with_depth(Biased::world(low, high));
+        let filter = presets::reeves87().filter.with_depth(Biased::world(low, high));
         let picture = set.shoot(cx, filter, &Frame::CENTRES);
         plot = plot.add(Series::line(&format!("bias {low} to {high}"), by_facing(&picture, &truth)));
         let (on_plane, on_sphere) = false_shadow(&picture, &truth, 6);
@@ -59,7 +59,7 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         if index == 2 {
             let caption = "Where (d) to (f) look, bias (0.3, 0.4)";
             shaded.push(framed("where", caption, size, &picture.colour, TERMINATOR, 6));
-            let wide = presets::reeves87().with_depth(Biased::world(low, high)).with_min_size(3.0);
+            let wide = presets::reeves87().filter.with_depth(Biased::world(low, high)).with_min_size(3.0);
             let wide = set.shoot(cx, wide, &Frame::CENTRES);
             let panel = zoomed("f-wide", "(f), no region narrower than 3 texels", &wide, TERMINATOR, 6);
             shaded.push(panel.with("bias", &label).with("MinSize", 3));
@@ -136,7 +136,7 @@ fn terminator(cx: &Context) -> anyhow::Result<(f64, f64, u32)> {
     scene.lights[0].view =
         View::perspective(eye, DVec3::new(0.0, 0.0, 25.0), DVec3::Z, fov, light.near(), light.far(), light.size())?;
     let set = Set::new(scene, 512, cx.pick(4096, 2048));
-    let picture = set.shoot(cx, presets::ordinary(Bias::World(BIAS)), &Frame { axis: 4, ..Frame::CENTRES });
+    let picture = set.shoot(cx, presets::ordinary(Bias::World(BIAS)).filter, &Frame { axis: 4, ..Frame::CENTRES });
     let mut bins = vec![(0.0f64, 0u32); 60];
     for i in of(&picture, |id| id == SPHERE).iter().enumerate().filter(|(_, on)| **on).map(|(i, _)| i) {
         let past = (-f64::from(picture.facing[0][i])).asin().to_degrees();

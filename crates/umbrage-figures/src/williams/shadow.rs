@@ -5,7 +5,7 @@ use crate::stage::four_spheres::{Alone, alone, dithered, faithful, interpolated,
 use crate::stage::masks::{lit, of, shadow_grid, value};
 use crate::stage::panels::{error_panel, shadow_image_panel, truth_panel};
 use crate::stage::set::Set;
-use glam::{DVec2, DVec3, UVec2, Vec3};
+use glam::{DVec2, DVec3, UVec2};
 use std::sync::Arc;
 use umbrage_depth::{DepthMap, Raw, Tiled, bandlimit};
 use umbrage_oracle::metrics::{self, Grid};

@@ -7,7 +7,8 @@ use crate::stage::set::Set;
 use glam::{DVec2, DVec3, UVec2, Vec3};
 use std::f64::consts::PI;
 use umbrage_plane::{Rules, SurfacePoint, View};
-use umbrage_render::{Frame, bind};
+use umbrage_recipe::bind;
+use umbrage_render::Frame;
 use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::{Made, Measure};
 use umbrage_sample::{Jittered, Key};
@@ -31,6 +32,7 @@ fn covered_spot(rules: Rules) -> anyhow::Result<Scene> {
     let grey = Material::matt(Vec3::splat(0.7));
     Ok(Scene {
         name: format!("covered-spot {rules:?}"),
+        origin: DVec3::ZERO,
         objects: vec![
             Object::solid("floor", Mesh::cuboid(Vec3::new(-60.0, -4.0, -60.0), Vec3::new(60.0, 0.0, 60.0)), grey),
             Object::solid("board", Mesh::cuboid(Vec3::new(2.0, 20.0, -40.0), Vec3::new(40.0, 22.0, 40.0)), grey),
@@ -80,7 +82,8 @@ fn rim(cx: &Context) -> anyhow::Result<Made> {
         alone.push(shadow_panel(&format!("{name}-shadow"), &format!("{caption}: shadow alone"), &picture));
         let light = &set.scene.lights[0];
         let pattern = Jittered::default().with_num_samples(256);
-        let shadow = bind(presets::woo92().with_pattern(pattern).with_min_size(3.0), middle_map(&set), cx.storage);
+        let shadow =
+            bind(presets::woo92().filter.with_pattern(pattern).with_min_size(3.0), middle_map(&set), cx.storage);
         let profile = radial(cx, light, &*shadow, 0.0);
         let peak = profile.iter().map(|p| p.1).fold(0.0, f64::max);
         let ends = profile[0].1.max(profile[profile.len() - 1].1);
