@@ -6,11 +6,11 @@ use umbrage_raster::Triangle;
 /// Made from a bare [`Triangle`], which is opaque and flat:
 ///
 /// ```
-/// use glam::Vec3;
+/// use glam::{DVec3, Vec3};
 /// use umbrage_bake::Caster;
 /// use umbrage_raster::Triangle;
 ///
-/// let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
+/// let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
 /// let leaf = Caster::from(Triangle { corners, object: 3, sheet: true }).with_opacity(0.75);
 /// assert_eq!((leaf.passes, leaf.normals), (Vec3::splat(0.25), None));
 /// ```

@@ -79,6 +79,7 @@ struct Moment {
 ///
 /// `moments` are the triangles at evenly spread times, one of them for what is at rest; none gives an empty map. What is nearer than the near plane stands at it (C-10). The result
 /// does not depend on the number of threads. Maps too large for the samples, which are one grid of at most 32,768 a side, get as many as fit.
+#[expect(clippy::missing_panics_doc, reason = "a view has at most 32,768 texels a side, and as many samples as fit")]
 pub fn bake_deep<M>(view: &View, moments: impl IntoIterator<Item = M>, deep: &Deep) -> DeepMap
 where
     M: IntoIterator<Item: Into<Caster>>,

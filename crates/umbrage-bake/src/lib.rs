@@ -24,7 +24,7 @@
 //!
 //! // A lamp at (0, 0, 10) that looks down on a pane 4 units below it.
 //! let lamp = View::perspective(DVec3::Z * 10.0, DVec3::ZERO, DVec3::Y, 1.0, 1.0, 20.0, UVec2::splat(64))?;
-//! let corners = [(-9.0, -9.0), (9.0, -9.0), (0.0, 9.0)].map(|(x, y)| Vec3::new(x, y, 6.0));
+//! let corners = [(-9.0, -9.0), (9.0, -9.0), (0.0, 9.0)].map(|(x, y)| DVec3::new(x, y, 6.0));
 //! let pane = Triangle { corners, object: 0, sheet: true };
 //!
 //! let baked = bake(&lamp, [pane], &First, Cull::None);

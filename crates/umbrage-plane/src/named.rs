@@ -1,5 +1,5 @@
-use crate::{Projection, Rules, View, ViewError};
-use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, UVec2};
+use crate::{Projection, Rules, View, ViewError, look_at, up_for};
+use glam::{DMat3, DMat4, DVec2, DVec3, UVec2};
 
 /// By what fraction of its diagonal a box is widened on each side by [`View::directional`], so that its surface is inside.
 const MARGIN: f64 = 1.0 / 1024.0;
@@ -95,22 +95,4 @@ impl View {
         let far = 2.0 * half.z + margin;
         Self::new(world_to_eye, Projection::orthographic(DVec2::new(half.x, half.y)), margin, far, size)
     }
-}
-
-/// What is up on a map whose light shines along `direction` or comes from there: +y of the world, or +z where the light
-/// shines nearly along y (within about 2.6°).
-pub fn up_for(direction: DVec3) -> DVec3 {
-    if direction.normalize_or_zero().y.abs() < 0.999 { DVec3::Y } else { DVec3::Z }
-}
-
-/// World to eye space of an eye that looks at a target.
-pub(crate) fn look_at(eye: DVec3, target: DVec3, up: DVec3) -> Result<DMat4, ViewError> {
-    ViewError::of_finite("eye", eye)?;
-    ViewError::of_finite("target", target)?;
-    ViewError::of_finite("up", up)?;
-    let forward = (target - eye).try_normalize().ok_or(ViewError::NoDirection { eye, target })?;
-    let right = forward.cross(up).try_normalize().ok_or(ViewError::Up { up, ahead: forward })?;
-    let up = right.cross(forward);
-    let axes = DMat4::from_cols(right.extend(0.0), up.extend(0.0), (-forward).extend(0.0), DVec4::W);
-    Ok(axes.transpose() * DMat4::from_translation(-eye))
 }

@@ -19,6 +19,7 @@
 mod bake;
 mod bind;
 mod error;
+mod field;
 mod fields;
 mod kind;
 mod preset;
@@ -31,7 +32,8 @@ mod values;
 
 pub use bind::bind;
 pub use error::RecipeError;
+pub use field::Field;
 pub use kind::Kind;
 pub use preset::PresetName;
 pub use recipe::Recipe;
-pub use table::{Field, help, markdown};
+pub use table::{help, markdown};

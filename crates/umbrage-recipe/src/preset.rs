@@ -1,4 +1,6 @@
 use umbrage_depth::Stored;
+use umbrage_plane::Bias;
+use umbrage_shadow::presets;
 
 /// The name that a recipe begins with: a paper's algorithm, or a control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -56,14 +58,18 @@ impl PresetName {
         Self::ALL.into_iter().find(|preset| preset.name() == name)
     }
 
-    /// The surfaces that the paper's comparison is right over, the one that the preset's own map records first.
+    /// The surfaces that the paper's comparison is right over, as [`umbrage_shadow::presets`] have them.
     #[must_use]
-    pub const fn expects(self) -> &'static [Stored] {
+    pub fn expects(self) -> &'static [Stored] {
         match self {
-            Self::Woo92 => &[Stored::Midpoint],
-            // The paper finds them in either way.
-            Self::WangMolnar94 => &[Stored::BackFace, Stored::Second],
-            _ => &[Stored::First],
+            Self::Williams78 => presets::williams78().expects,
+            // Reeves' control is over the maps of his own filter.
+            Self::Reeves87 | Self::Ordinary => presets::reeves87().expects,
+            Self::Reeves87Recommended => presets::reeves87_recommended().expects,
+            Self::Woo92 => presets::woo92().expects,
+            Self::WangMolnar94 => presets::wang_molnar94().expects,
+            Self::Burley => presets::burley().expects,
+            Self::Fernando => presets::fernando(Bias::ZERO).expects,
         }
     }
 }

@@ -77,7 +77,7 @@ impl Recipe {
     /// use umbrage_sample::Key;
     ///
     /// let lamp = View::perspective(DVec3::Z * 10.0, DVec3::ZERO, DVec3::Y, 1.0, 1.0, 20.0, UVec2::splat(64))?;
-    /// let corners = [(-2.0, -2.0), (2.0, -2.0), (0.0, 2.0)].map(|(x, y)| Vec3::new(x, y, 6.0));
+    /// let corners = [(-2.0, -2.0), (2.0, -2.0), (0.0, 2.0)].map(|(x, y)| DVec3::new(x, y, 6.0));
     /// let recipe: Recipe = "reeves87".parse()?;
     /// let map = recipe.bake(&lamp, [Triangle { corners, object: 0, sheet: true }]);
     /// let shadow = recipe.bind(map, Storage::Tiled)?;

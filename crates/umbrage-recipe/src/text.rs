@@ -1,9 +1,8 @@
 //! Recipes as text and as TOML.
 
-use crate::table::Field;
 use crate::values::Values;
-use crate::{PresetName, Recipe, RecipeError, kind};
-use std::fmt;
+use crate::{Field, PresetName, Recipe, RecipeError, kind};
+use std::fmt::{self, Write};
 use std::str::FromStr;
 use toml::{Table, Value};
 
@@ -78,7 +77,7 @@ impl Recipe {
         };
         let mut lines = format!("preset = {}\n", Value::from(self.preset.name()));
         for (name, text) in self.written() {
-            lines += &format!("{name} = {}\n", value(&text));
+            let _ = writeln!(lines, "{name} = {}", value(&text));
         }
         lines
     }

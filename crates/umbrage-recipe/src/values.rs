@@ -110,19 +110,19 @@ impl Values {
                 let OnPlane { bias, slack, reach, .. } = plane;
                 let (rule, pattern, biased) = (Rule::BackFace, PatternName::Every, Biased::constant(bias));
                 let parts = Self { rule, pattern, biased, slack, reach, ..parts };
-                Self { res_factor, min_size, min_cos, when, dark_backs, ..parts }
+                Self { res_factor, min_size, when, min_cos, dark_backs, ..parts }
             }
             PresetName::Burley => {
                 let soft = presets::burley().filter;
                 let BiasCone { base, slope, radius, .. } = soft.depth;
-                let parts = Self { depth: DepthName::Cone, slope, radius, ..parts.soft(soft) };
+                let parts = Self { depth: DepthName::Cone, slope, radius, ..parts.soft(&soft) };
                 Self { biased: Biased::constant(Bias::World(base)), ..parts }
             }
             PresetName::Fernando => {
                 // One texel: what a constant bias is set to where nothing is known of the scene.
                 let fernando = presets::fernando(Bias::Texels(1.0)).filter;
                 let biased = fernando.depth;
-                Self { depth: DepthName::Constant, biased, ..parts.soft(fernando) }
+                Self { depth: DepthName::Constant, biased, ..parts.soft(&fernando) }
             }
             PresetName::Ordinary => Self { biased: Biased::constant(Bias::ZERO), res_factor: 1.0, ..parts },
         }
@@ -173,8 +173,8 @@ impl Values {
         Self { jittered: pattern, biased: depth, res_factor, min_size, ..self }
     }
 
-    fn soft<D>(self, soft: Soft<D>) -> Self {
-        let Soft { softness, search, blur, falloff, radius_gamma, opacity, rescue, .. } = soft;
+    fn soft<D>(self, soft: &Soft<D>) -> Self {
+        let Soft { softness, search, blur, falloff, radius_gamma, opacity, rescue, .. } = *soft;
         let parts = match softness {
             Softness::Between { min, max } => Self { min, max, ..self },
             Softness::Light { radius, nearest } => Self { light: Some(radius), nearest: Some(nearest), ..self },

@@ -4,7 +4,7 @@ use crate::made::{Table, Verdict};
 use crate::measure::Bound;
 use crate::panel::Role;
 use crate::record::{FigureRecord, MeasureRecord, PanelRecord, Report};
-use crate::run::figures;
+use crate::text::figures;
 use crate::text::{escape, html as set, proper};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -259,8 +259,10 @@ fn panel(panel: &PanelRecord) -> String {
         let _ = write!(parameters, "<div><dt>zoom</dt><dd>{} ×</dd></div>", panel.zoom);
     }
     let list = if parameters.is_empty() { String::new() } else { format!("<dl>{parameters}</dl>") };
+    // Wider than a screen's column of pictures can show: all of the row.
+    let wide = if panel.size[0] > 1024 { " class=\"wide\"" } else { "" };
     format!(
-        "<figure><a href=\"{file}\" class=\"open\" data-caption=\"{alt}\" data-zoom=\"{}\"><img \
+        "<figure{wide}><a href=\"{file}\" class=\"open\" data-caption=\"{alt}\" data-zoom=\"{}\"><img \
          src=\"{file}\" {lazy} alt=\"{alt}\"></a><figcaption><p>{caption}{role}</p>{list}\
          </figcaption></figure>\n",
         panel.zoom

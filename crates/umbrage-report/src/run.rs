@@ -4,6 +4,7 @@ use crate::folder::{self, Origin, Timings};
 use crate::made::{Made, Verdict};
 use crate::page::{self, Beside};
 use crate::record::{FigureRecord, Heading, Report};
+use crate::text::figures;
 use anyhow::Context as _;
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 use std::collections::BTreeMap;
@@ -180,11 +181,6 @@ impl Progress {
             eprintln!("{} from earlier runs on the page", figures(others));
         }
     }
-}
-
-/// So many figures, as people say it.
-pub(crate) fn figures(count: usize) -> String {
-    format!("{count} figure{}", if count == 1 { "" } else { "s" })
 }
 
 /// One line about a report, and where to look.

@@ -51,6 +51,12 @@ const RULES: &[Rule] = &[
         tests: PROPERTIES,
     },
     Rule {
+        package: "umbrage-recipe",
+        arrows: &["umbrage-bake", "umbrage-shadow"],
+        outside: &["thiserror", "toml"],
+        tests: &["glam", "proptest"],
+    },
+    Rule {
         package: "umbrage-scene",
         arrows: &["umbrage-plane"],
         outside: &["glam", "serde", "thiserror"],
@@ -58,8 +64,8 @@ const RULES: &[Rule] = &[
     },
     Rule {
         package: "umbrage-render",
-        arrows: &["umbrage-scene", "umbrage-bake", "umbrage-shadow"],
-        outside: &["fearless_simd", "glam", "rayon", "thiserror"],
+        arrows: &["umbrage-scene", "umbrage-bake", "umbrage-shadow", "umbrage-recipe"],
+        outside: &["glam", "rayon"],
         tests: PROPERTIES,
     },
     Rule {

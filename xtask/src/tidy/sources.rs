@@ -22,8 +22,8 @@ const OPENS_FILES: [&str; 4] = ["crates/umbrage-io/", "crates/umbrage-report/", 
 pub fn source(file: &str, text: &str) -> Vec<String> {
     let mut findings = Vec::new();
     let opens_files = OPENS_FILES.iter().any(|folder| file.starts_with(folder));
-    let for_tests =
-        file.starts_with("tests/") || ["/tests/", "/benches/", "/build.rs"].iter().any(|part| file.contains(part));
+    let for_tests = ["tests/", "examples/"].iter().any(|folder| file.starts_with(folder))
+        || ["/tests/", "/benches/", "/build.rs"].iter().any(|part| file.contains(part));
     for (index, line) in code(text).lines().enumerate() {
         let mut say = |what: &str| findings.push(format!("{file}:{}: {what}", index + 1));
         for word in FORBIDDEN.into_iter().filter(|word| stands(line, word)) {

@@ -101,7 +101,7 @@ fn ext_2_moments_share_the_light_between_them() {
     let map = bake_deep(&view, moments.iter().copied(), &lossless(1));
     let light_behind = |world: f32| map.transmittance(IVec2::new(((world + 16.0) * 2.0) as i32, 9), 1e9).x;
     assert_eq!([-1.0, 1.0, 5.0, 9.0, 13.0].map(light_behind), [1.0, 0.75, 0.5, 0.25, 0.0]);
-    let none = bake_deep(&view, [[Caster::from(moments[0][0]); 1]; 0], &lossless(1));
+    let none = bake_deep(&view, Vec::<[Caster; 1]>::new(), &lossless(1));
     assert!(TexelRect::of_size(view.size()).texels().all(|texel| none.steps(texel).is_empty()));
     // A single depth per texel sees each moment in its own fraction of the texels.
     let maps: Vec<_> = moments.iter().map(|moment| bake(&view, *moment, &First, Cull::None).map).collect();

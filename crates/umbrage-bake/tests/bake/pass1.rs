@@ -62,7 +62,9 @@ fn naive<R: DepthRule>(view: &View, triangles: &[Triangle], rule: &R, cull: Cull
         let at = view.sampling().position(texel);
         rule.resolve(cell, &decode, at).max(decode.depth(view.key(view.near()) as f32, at))
     });
-    Raw::new(*view, depths.collect()).unwrap()
+    // The nearest surface without its fronts is the nearest back face.
+    let stored = if cull == Cull::Front && rule.stored() == Stored::First { Stored::BackFace } else { rule.stored() };
+    Raw::new(*view, depths.collect()).unwrap().with_stored(stored)
 }
 
 fn law<R: DepthRule>(name: &str, rule: &R, cull: Cull) {

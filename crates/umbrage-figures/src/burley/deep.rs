@@ -14,11 +14,11 @@ use umbrage_depth::{DeepMap, DepthMap, Map, Step, compress_steps};
 use umbrage_oracle::{Geometry, Mean, RayCast, metrics};
 use umbrage_plane::{TexelRect, View};
 use umbrage_recipe::Recipe;
-use umbrage_render::{Frame, Picture, expose_deep, exposed_map};
+use umbrage_render::{Frame, Picture, expose_deep, exposed_map, picture};
 use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::{Made, Measure, Panel, Role};
 use umbrage_scene::{Scene, gallery};
-use umbrage_shadow::Shadow;
+use umbrage_shadow::{Shadow, Unshadowed};
 
 pub const DEEP: Figure = Figure {
     id: "B06-deep",
@@ -44,6 +44,8 @@ struct Case {
     frame: Frame,
     /// Samples along a texel's side.
     axis: u32,
+    /// What flies by and is left out of the picture: the colour that it adds to each pixel over the moments, and the time that it covers it.
+    flying: Option<(Vec<Vec3>, Vec<f32>)>,
 }
 
 impl Case {
@@ -51,10 +53,10 @@ impl Case {
         let set = Set::new(scene, cx.pick(360, 128), texels);
         let moments = vec![set.scene.clone()];
         let frame = Frame { axis: cx.pick(4, 2), every_sample: true, ..Frame::default() };
-        Self { name, exact: moments.clone(), moments, set, floor: 0, frame, axis }
+        Self { name, exact: moments.clone(), moments, set, floor: 0, frame, axis, flying: None }
     }
 
-    /// The flying ball itself is left out of the picture: only its shadow is looked at.
+    /// The flying ball itself is left out of the picture that is measured, which is of its shadow, and drawn over it.
     fn moving(cx: &Context) -> Self {
         // The ball goes last, so that what is left of the scene keeps its ids.
         let at = |time: f32| {
@@ -62,12 +64,15 @@ impl Case {
             scene.objects.rotate_left(1);
             scene
         };
-        let over = |count: u8| (0..count).map(|i| at((f32::from(i) + 0.5) / f32::from(count))).collect();
+        let over =
+            |count: u8| -> Vec<Scene> { (0..count).map(|i| at((f32::from(i) + 0.5) / f32::from(count))).collect() };
         let mut seen = at(0.5);
         seen.objects.pop();
         let set = Set::new(seen, cx.pick(360, 96), cx.pick(384, 128));
         let frame = Frame { axis: 2, every_sample: true, ..Frame::default() };
+        let flying = Some(streak(cx, &set, &over(cx.pick(96, 12))));
         Self {
+            flying,
             name: "moving ball",
             set,
             moments: over(cx.pick(16, 6)),
@@ -102,6 +107,24 @@ impl Case {
             geometries.iter().map(|geometry| -> Box<dyn Shadow + '_> { Box::new(RayCast::new(geometry, self.view())) });
         self.set.draw(cx, &Mean(rays.collect()), &self.frame)
     }
+}
+
+/// The last object of the scenes, lit by what nothing shadows, as an open shutter sees it: the colour that it adds to each pixel, and the part of the
+/// time for which it covers it.
+fn streak(cx: &Context, set: &Set, moments: &[Scene]) -> (Vec<Vec3>, Vec<f32>) {
+    let pixels = (set.scene.camera.size().x * set.scene.camera.size().y) as usize;
+    let (mut colour, mut covered) = (vec![Vec3::ZERO; pixels], vec![0.0; pixels]);
+    let each = 1.0 / moments.len() as f32;
+    for moment in moments {
+        let scene = Scene { camera: set.scene.camera, ..moment.clone() };
+        let ball = scene.objects.len() as u32 - 1;
+        let seen = picture(&scene, &[&Unshadowed], &Frame { seed: cx.seed, ..Frame::CENTRES });
+        for i in (0..pixels).filter(|&i| seen.object[i] == ball) {
+            colour[i] += seen.colour[i] * each;
+            covered[i] += each;
+        }
+    }
+    (colour, covered)
 }
 
 fn deep(cx: &Context) -> anyhow::Result<Made> {
@@ -148,7 +171,8 @@ fn deep(cx: &Context) -> anyhow::Result<Made> {
     made.plots.push(("bytes".into(), curve.svg()));
     made.note = "Each texel holds the mean of 16 samples (glass) or 4, and over the ball's moments; the oracle \
     looks along its own rays, at other times. Shadows are those of a point light: what is soft here is glass, \
-    leaves and motion."
+    leaves and motion. The ball is drawn over the picture as a shutter that is open all the while sees it; it is not measured, and the streak \
+    of shadow under it is."
         .into();
     Ok(made)
 }
@@ -235,21 +259,22 @@ fn panels(made: &mut Made, case: &Case, picture: &Picture, truth: &Picture) {
     let exact = format!("{stem}-truth");
     let title = |what: &str| format!("{}, {what}", case.name);
     let of_truth = |panel: Panel| panel.role(Role::Truth).with("times", case.exact.len());
-    if case.moments.len() == 1 {
-        made.panels.push(
-            colour_panel(stem, &title("deep map"), picture.size, &picture.colour)
-                .with("recipe", case.recipe())
-                .against(&exact),
-        );
-        made.panels.push(of_truth(colour_panel(&exact, &title("rays"), truth.size, &truth.colour)));
-    } else {
-        made.panels.push(
-            shadow_panel(stem, &title("deep map"), picture)
-                .with("recipe", case.recipe())
-                .with("moments", case.moments.len())
-                .against(&exact),
-        );
-        made.panels.push(of_truth(shadow_panel(&exact, &title("rays"), truth)));
+    let drawn = |picture: &Picture| -> Vec<Vec3> {
+        let Some((colour, covered)) = &case.flying else { return picture.colour.clone() };
+        let over = |i: usize| picture.colour[i] * (1.0 - covered[i]) + colour[i];
+        (0..picture.colour.len()).map(over).collect()
+    };
+    let mut panel = colour_panel(stem, &title("deep map"), picture.size, &drawn(picture)).with("recipe", case.recipe());
+    if case.moments.len() > 1 {
+        panel = panel.with("moments", case.moments.len());
+    }
+    made.panels.push(panel.against(&exact));
+    made.panels.push(of_truth(colour_panel(&exact, &title("rays"), truth.size, &drawn(truth))));
+    if case.flying.is_some() {
+        let bare = format!("{stem}-shadow-truth");
+        let panel = shadow_panel(&format!("{stem}-shadow"), &title("deep map, the shadow alone"), picture);
+        made.panels.push(panel.against(&bare));
+        made.panels.push(of_truth(shadow_panel(&bare, &title("rays, the shadow alone"), truth)));
     }
     made.panels.push(error_panel(
         &format!("{stem}-error"),

@@ -2,7 +2,7 @@
 
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::masks::{acne, of, value};
-use crate::stage::panels::{colour_panel, error_panel, shadow_and_error, shadow_panel, truth_panel};
+use crate::stage::panels::{as_shaded, colour_panel, error_panel, shadow_and_error, shadow_panel, truth_panel};
 use crate::stage::penumbra::{Edge, axial, burley_max, depth_step, mean_shadow};
 use crate::stage::set::Set;
 use glam::{DVec3, Vec3};
@@ -105,6 +105,7 @@ fn soft(cx: &Context) -> anyhow::Result<Made> {
     let recipes = recipes(&set);
     let mut made = Made::default();
     let truth = set.truth_disc(cx, &Frame::CENTRES, LIGHT);
+    let shown = as_shaded(&truth);
     let (mut widths, mut contact, mut false_shadow) = (Vec::new(), Vec::new(), Vec::new());
     let at = |shadow: &dyn Shadow| -> Vec<(f64, f64)> {
         let at = |x: f64, side: f64| edge(&set, x, side).0.width(cx, shadow);
@@ -120,7 +121,7 @@ fn soft(cx: &Context) -> anyhow::Result<Made> {
         contact.push(mean_shadow(cx, &*shadow, &strip()));
         let picture = set.draw(cx, &*shadow, &Frame::CENTRES);
         false_shadow.push(acne(&picture, &truth, 6, |_| true));
-        shadow_and_error(&mut made, (name, caption), ("recipe", recipe), &picture, &truth);
+        shadow_and_error(&mut made, (name, caption), ("recipe", recipe), &as_shaded(&picture), &shown);
         if *name == "burley" {
             let panel = colour_panel("burley-colour", "Burley, shaded", picture.size, &picture.colour);
             made.panels.insert(0, panel.against("truth-colour"));
@@ -128,7 +129,7 @@ fn soft(cx: &Context) -> anyhow::Result<Made> {
     }
     let panel = colour_panel("truth-colour", "Ray-traced truth, shaded", truth.size, &truth.colour);
     made.panels.insert(1, panel.role(Role::Truth));
-    made.panels.push(truth_panel(&truth).with("light's radius", LIGHT).with("samples", cx.pick(256, 64)));
+    made.panels.push(truth_panel(&shown).with("light's radius", LIGHT).with("samples", cx.pick(256, 64)));
     let expected: Vec<(f64, f64)> = PLACES.iter().map(|&x| (x, predicted(&set, x))).collect();
     judge(cx, &mut made, (&widths, &exact, &expected), &contact, &false_shadow);
     made.measures.push(Measure::info(
@@ -141,8 +142,8 @@ fn soft(cx: &Context) -> anyhow::Result<Made> {
         "The light is a disc of radius {LIGHT}; {:.3} of its penumbra lies between 10 and 90 %. \
         Burley's largest radius is that of D-16 for occluders half-way up the box, and the constant biases are \
         those of D-9 for the floor half-way along the shadow. Fernando's search of the same radius needs so \
-        large a bias that the box's shadow goes missing near its foot. Faces turned away from the light show \
-        what the map says of them; shading never asks.",
+        large a bias that the box's shadow goes missing near its foot. Faces turned away from the light are drawn \
+        in shadow, as shading has them: what a map says of them is never asked.",
         predict::DISC_EDGE_10_90
     );
     Ok(made)
@@ -225,6 +226,7 @@ fn judge(
 fn overlapping(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
     let set = Set::new(gallery::overlapping_boxes(), cx.pick(256, 128), 1024);
     let truth = set.truth_disc(cx, &Frame::CENTRES, LIGHT);
+    let shown = as_shaded(&truth);
     let geometry = Geometry::new(&set.scene, &set.scene.camera);
     let light = set.disc_light(cx, &geometry, LIGHT);
     // The box's edge just before the board's penumbra begins.
@@ -239,21 +241,22 @@ fn overlapping(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
         let mask = metrics::both(&metrics::penumbra_mask(&truth.shadow[0]), &of(&truth, |id| id == FLOOR));
         let rms = value(metrics::rms(&picture.shadow[0], &truth.shadow[0], &mask));
         made.measures.push(Measure::info(&format!("overlapping, {caption}: rms error in the penumbra"), rms, "share"));
+        let drawn = as_shaded(&picture);
         made.panels.push(error_panel(
             &format!("overlapping-{name}-error"),
             &format!("Overlapping occluders, {caption}: less truth"),
             picture.size,
-            &picture.shadow[0],
-            &truth.shadow[0],
+            &drawn.shadow[0],
+            &shown.shadow[0],
         ));
         if *name == "burley" {
             made.panels.push(
-                shadow_panel("overlapping-burley", "Overlapping occluders, Burley", &picture)
+                shadow_panel("overlapping-burley", "Overlapping occluders, Burley", &drawn)
                     .against("overlapping-truth"),
             );
         }
     }
-    let mut panel = shadow_panel("overlapping-truth", "Overlapping occluders, ray-traced area light", &truth);
+    let mut panel = shadow_panel("overlapping-truth", "Overlapping occluders, ray-traced area light", &shown);
     panel.role = Role::Truth;
     made.panels.push(panel);
     made.measures.push(Measure::info(

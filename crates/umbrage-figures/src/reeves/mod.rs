@@ -1,7 +1,9 @@
 //! Reeves, Salesin & Cook 1987.
 
 mod all_round;
+mod bias;
 mod bump;
+mod hammered;
 mod heights;
 mod idea;
 mod listing;
@@ -21,7 +23,7 @@ pub const FIGURES: &[&Figure] = &[
     &idea::F6,
     &parameters::F7,
     &parameters::F8,
-    &parameters::F9,
+    &bias::F9,
     &parameters::F10,
     &scenes::F11,
     &scenes::F12,

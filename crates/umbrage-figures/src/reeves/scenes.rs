@@ -4,9 +4,11 @@ use crate::figure::{Context, Figure, Paper};
 use crate::stage::lights::Stage;
 use crate::stage::masks::{of, value};
 use crate::stage::panels::{colour_panel, error_panel};
+use glam::{DVec2, UVec2, Vec3};
 use umbrage_bake::bake;
 use umbrage_depth::{DepthMap, First, Raw};
 use umbrage_oracle::metrics;
+use umbrage_plane::View;
 use umbrage_raster::Cull;
 use umbrage_render::{Frame, Picture, Soup};
 use umbrage_report::{Made, Measure, Panel, Role};
@@ -141,7 +143,7 @@ fn desk_lamps(cx: &Context) -> anyhow::Result<Made> {
         ],
         measures: vec![
             Measure::exactly("casting lights", sides.len() as f64, "lights", 3.0),
-            Measure::exactly("maps of 2048², 1024², 1024²", f64::from(u8::from(sides == expected)), "yes = 1", 1.0),
+            Measure::yes("maps of 2048², 1024², 1024²", sides == expected),
             Measure::at_least("shadow on what is in no map", ground, "mean over lights", 0.02),
             Measure::at_most("error of (c)", error(&stage, &jittered, &truth), "rms share", 0.12),
             Measure::at_most("noise of (c) over (a)", noise(&jittered) / noise(&uniform), "ratio", 1.0),
@@ -182,15 +184,60 @@ fn lamp_maps(cx: &Context) -> anyhow::Result<Made> {
         let mut order: Vec<usize> = (0..grey.len()).collect();
         order.sort_by(|&a, &b| raw.depths()[a].total_cmp(&raw.depths()[b]));
         unordered += order.windows(2).filter(|pair| grey[pair[0]] > grey[pair[1]]).count() as u64;
-        let panel = Panel::grey(&light.name, &light.name, light.view.size(), grey);
-        made.panels.push(panel.with("map", format!("{}²", light.view.size().x)).role(Role::Map));
+        let (name, size) = (&light.name, light.view.size());
+        let stored = raw.depths().iter().filter(|depth| depth.is_finite()).count() as f64 / grey.len() as f64;
+        let panel = Panel::rgb(name, &format!("{name}: all of the map"), size, tinted(raw.depths(), &grey));
+        let panel = panel
+            .with("map", format!("{}²", size.x))
+            .with("texels that hold a depth", format!("{:.0} %", 100.0 * stored));
+        made.panels.push(panel.role(Role::Map));
+        let (size, depths) = casters_of(&light.view, raw.depths());
+        let caption = format!("{name}: what it lights, enlarged, greys spread over it");
+        let close = Panel::rgb(&format!("{name}-close"), &caption, size, tinted(&depths, &spread(&depths)));
+        made.panels.push(close.role(Role::Map));
     }
+    made.note = "Nearer is darker, as in the paper; texels that hold no depth are blue. The ground is in no map, and most of what these lights see \
+                 is ground: so most of each map is empty. The dark frame of a lamp's map is the inside of its own shade. Enlarged, greys are spread over \
+                 the depths that are there, each as often as any other; order is kept, distance is not."
+        .into();
     made.measures = vec![
         Measure::at_least("texels that would show the ground", there as f64, "texels", 1000.0),
         Measure::at_most("of these with a surface behind it", wrong as f64 / there as f64, "share", 0.01),
         Measure::exactly("greys that fall as depth grows", unordered as f64, "pairs", 0.0),
     ];
     Ok(made)
+}
+
+/// Greys, and blue where no depth is stored.
+fn tinted(depths: &[f32], grey: &[f32]) -> Vec<Vec3> {
+    const EMPTY: Vec3 = Vec3::new(0.10, 0.19, 0.34);
+    depths.iter().zip(grey).map(|(depth, grey)| if depth.is_finite() { Vec3::splat(*grey) } else { EMPTY }).collect()
+}
+
+/// Greys by rank, nearer darker: equally many texels of each.
+fn spread(depths: &[f32]) -> Vec<f32> {
+    const LIGHTEST: f32 = 0.8;
+    let mut sorted: Vec<f32> = depths.iter().copied().filter(|depth| depth.is_finite()).collect();
+    sorted.sort_unstable_by(f32::total_cmp);
+    let rank = |depth: f32| sorted.partition_point(|other| *other < depth) as f32 / sorted.len().max(1) as f32;
+    depths.iter().map(|&depth| if depth.is_finite() { LIGHTEST * rank(depth) } else { 1.0 }).collect()
+}
+
+/// The square of a map about what is stored well within the cone, thinned to at most 512 texels a side.
+fn casters_of(view: &View, depths: &[f32]) -> (UVec2, Vec<f32>) {
+    const SIDE: u32 = 512;
+    let size = view.size();
+    // A lamp's shade begins at the circle that its cone cuts out of the map.
+    let within = |at: DVec2| (at / size.as_dvec2() * 2.0 - 1.0).length() < 0.94;
+    let texel = |i: usize| UVec2::new(i as u32 % size.x, i as u32 / size.x);
+    let stored = (0..depths.len()).filter(|&i| depths[i].is_finite()).map(texel).filter(|at| within(at.as_dvec2()));
+    let (low, high) = stored.fold((size, UVec2::ZERO), |(low, high), at| (low.min(at), high.max(at + 1)));
+    let side = (high.saturating_sub(low).max_element() * 9 / 8).clamp(1, size.min_element());
+    let from = ((low + high) / 2).saturating_sub(UVec2::splat(side / 2)).min(size - side);
+    let across = side.min(SIDE);
+    let at = |i: u32| from + UVec2::new(i % across, i / across) * side / across;
+    let thinned = (0..across * across).map(at).map(|at| depths[(at.y * size.x + at.x) as usize]).collect();
+    (UVec2::splat(across), thinned)
 }
 
 pub const F14: Figure = Figure {

@@ -1,8 +1,8 @@
 //! Panels of a figure: the shadow alone, its error in colours, and windows enlarged.
 
-use glam::{DVec2, UVec2, Vec3};
+use glam::{DVec2, IVec2, UVec2, Vec3};
 use umbrage_oracle::heat;
-use umbrage_render::Picture;
+use umbrage_render::{NOTHING, Picture};
 use umbrage_report::{Made, Panel, Role};
 
 /// The shadow component as one looks at it: light where lit.
@@ -39,6 +39,17 @@ pub fn shadow_and_error(
     ));
 }
 
+/// The picture with surfaces that face away from light 0 wholly in its shadow, as shading has them whatever a map says.
+pub fn as_shaded(picture: &Picture) -> Picture {
+    let mut shaded = picture.clone();
+    for (i, shadow) in shaded.shadow[0].iter_mut().enumerate() {
+        if picture.object[i] != NOTHING && picture.facing[0][i] <= 0.0 {
+            *shadow = 1.0;
+        }
+    }
+    shaded
+}
+
 /// Result less truth as colours.
 pub fn error_panel(name: &str, caption: &str, size: UVec2, result: &[f32], truth: &[f32]) -> Panel {
     let pixels = result.iter().zip(truth).map(|(r, t)| heat(r - t)).collect();
@@ -47,23 +58,44 @@ pub fn error_panel(name: &str, caption: &str, size: UVec2, result: &[f32], truth
 
 /// A square window of a picture about a fraction of its size, enlarged.
 pub fn zoomed(name: &str, caption: &str, picture: &Picture, centre: DVec2, part: u32) -> Panel {
-    let (from, window, zoom) = window(picture, centre, part);
+    let (from, window, zoom) = window(picture.size, centre, part);
     let (size, shadow) = crop(picture.size, &picture.shadow[0], from, window);
     shadow_image_panel(name, caption, size, &shadow).zoom(zoom)
 }
 
 /// The same window of result less truth as colours.
 pub fn zoomed_error(name: &str, caption: &str, picture: &Picture, truth: &Picture, centre: DVec2, part: u32) -> Panel {
-    let (from, window, zoom) = window(picture, centre, part);
+    let (from, window, zoom) = window(picture.size, centre, part);
     let (size, ours) = crop(picture.size, &picture.shadow[0], from, window);
     let (_, exact) = crop(truth.size, &truth.shadow[0], from, window);
     error_panel(name, caption, size, &ours, &exact).zoom(zoom)
 }
 
+/// The same window of a colour picture.
+pub fn zoomed_colour(name: &str, caption: &str, size: UVec2, pixels: &[Vec3], centre: DVec2, part: u32) -> Panel {
+    let (from, window, zoom) = window(size, centre, part);
+    let (size, pixels) = crop(size, pixels, from, window);
+    Panel::rgb(name, caption, size, pixels).zoom(zoom)
+}
+
+/// A colour picture with the outline of the window that [`zoomed`] enlarges drawn into it.
+pub fn framed(name: &str, caption: &str, size: UVec2, pixels: &[Vec3], centre: DVec2, part: u32) -> Panel {
+    const OUTLINE: Vec3 = Vec3::new(0.95, 0.35, 0.02);
+    let (from, window, _) = window(size, centre, part);
+    let (low, high) = (from.as_ivec2() - 1, (from + window).as_ivec2());
+    let width = (size.x / 256).max(1) as i32;
+    let pixel = |(index, pixel): (usize, &Vec3)| {
+        let at = IVec2::new((index as u32 % size.x) as i32, (index as u32 / size.x) as i32);
+        let inside = |by: i32| at.cmpgt(low - by).all() && at.cmplt(high + by).all();
+        if inside(width) && !inside(0) { OUTLINE } else { *pixel }
+    };
+    Panel::rgb(name, caption, size, pixels.iter().enumerate().map(pixel).collect())
+}
+
 /// Corner and size of a square window about a fraction of a picture's size, and how often its pixels are repeated.
-fn window(picture: &Picture, centre: DVec2, part: u32) -> (UVec2, UVec2, u32) {
-    let side = picture.size.x / part;
-    let from = (centre * picture.size.as_dvec2()).as_uvec2().saturating_sub(UVec2::splat(side / 2));
+fn window(size: UVec2, centre: DVec2, part: u32) -> (UVec2, UVec2, u32) {
+    let side = size.x / part;
+    let from = (centre * size.as_dvec2()).as_uvec2().saturating_sub(UVec2::splat(side / 2));
     (from, UVec2::splat(side), (384 / side.max(1)).max(1))
 }
 

@@ -33,10 +33,12 @@ pub(crate) struct Seen {
     pub rays: Rays,
 }
 
+type Known = (Seen, Arc<Picture>);
+
 /// The truths of one run. Clones share what they hold.
 #[derive(Clone, Debug, Default)]
 pub struct Truths {
-    made: Arc<Mutex<Vec<(Seen, Arc<Picture>)>>>,
+    made: Arc<Mutex<Vec<Known>>>,
 }
 
 impl Truths {

@@ -1,24 +1,24 @@
-//! Our own: every method beside every other, against map size, under low light, and over all scenes by named fault.
+//! Our own: every method beside every other, against map size and under low light.
 
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::masks::{acne, leak, value};
 use crate::stage::panels::{error_panel, shadow_panel, truth_panel};
 use crate::stage::set::Set;
-use glam::{DVec3, UVec2, Vec3};
-use umbrage_oracle::{gap_on_surface, heat, metrics};
+use glam::{DVec3, Vec3};
+use umbrage_oracle::{gap_on_surface, metrics};
 use umbrage_plane::SurfacePoint;
 use umbrage_render::{Frame, Picture};
 use umbrage_report::plot::{Axis, Plot, Series};
-use umbrage_report::{Made, Measure, Panel, Role, Table};
+use umbrage_report::{Made, Measure, Table};
 use umbrage_sample::Key;
-use umbrage_scene::gallery::{self, Make};
+use umbrage_scene::gallery;
 use umbrage_shadow::Shadow;
 
 /// A method's name and recipe. Biases are in texels, as worlds differ in size: 3 to 4 are Reeves' .3 to .4 at his world's and his map's size,
 /// and Wang & Molnar's 15 in theirs.
-type Method = (&'static str, &'static str);
+pub(super) type Method = (&'static str, &'static str);
 
-const METHODS: [Method; 10] = [
+pub(super) const METHODS: [Method; 10] = [
     ("ordinary z-buffer", "reeves87,pattern=centre,res-factor=0,bias=3.5t"),
     ("Williams 1978", "williams78,lookup=bilinear,dither=1,bias=3.5t"),
     ("Reeves 1987", "reeves87,bias=3..4t"),
@@ -32,30 +32,27 @@ const METHODS: [Method; 10] = [
 ];
 
 /// So many of them, the first, are published as such.
-const PUBLISHED: usize = 7;
+pub(super) const PUBLISHED: usize = 7;
 
 /// Index of a method by its name.
-fn index(name: &str) -> usize {
+pub(super) fn index(name: &str) -> usize {
     METHODS.iter().position(|method| method.0 == name).unwrap_or(METHODS.len())
 }
 
 /// What one picture is judged by.
 #[derive(Clone, Copy, Default)]
-struct Judged {
-    acne: f64,
-    leak: f64,
-    rms: f64,
+pub(super) struct Judged {
+    pub acne: f64,
+    pub leak: f64,
+    pub rms: f64,
 }
-
-/// One number of a judgement.
-type Fault = fn(&Judged) -> f64;
 
 /// Border of the masks about truth's edges, in pixels.
 fn border(cx: &Context) -> usize {
     cx.pick(6, 3)
 }
 
-fn judge(cx: &Context, picture: &Picture, truth: &Picture) -> Judged {
+pub(super) fn judge(cx: &Context, picture: &Picture, truth: &Picture) -> Judged {
     let seen: Vec<bool> = truth.share.iter().zip(&truth.facing[0]).map(|(s, f)| *s == 1.0 && *f > 0.05).collect();
     Judged {
         acne: acne(picture, truth, border(cx), |_| true),
@@ -78,6 +75,7 @@ fn sizes(cx: &Context) -> anyhow::Result<Made> {
     let pixels = cx.pick(320, 160);
     let mut made = Made::default();
     let mut found = vec![vec![(Judged::default(), 0.0); sizes.len()]; METHODS.len()];
+    let mut constant = Vec::new();
     for (at, &side) in sizes.iter().enumerate() {
         let set = Set::new(gallery::table(), pixels, side);
         let truth = set.truth_points(cx, &Frame::CENTRES);
@@ -96,7 +94,23 @@ fn sizes(cx: &Context) -> anyhow::Result<Made> {
         if side == 512 {
             made.panels.push(truth_panel(&truth));
         }
+        // As many world units as 3 to 4 texels are of a map of 512².
+        let [low, high] = [3.0, 4.0].map(|texels| texels * f64::from(side) / 512.0);
+        let in_world = set.by(cx, &format!("reeves87,bias={low}..{high}t"), &Frame::CENTRES)?;
+        constant.push(judge(cx, &in_world, &truth));
+        if side == sizes[sizes.len() - 1] {
+            let reeves = METHODS[index("Reeves 1987")];
+            let shrinking = set.by(cx, reeves.1, &Frame::CENTRES)?;
+            for (name, caption, picture) in [
+                ("shrinking", "Reeves 1987 on the largest map, bias of 3 to 4 texels", &shrinking),
+                ("constant", "The same, bias in world units as on 512²", &in_world),
+            ] {
+                let panel = shadow_panel(name, caption, picture).with("map", format!("{side}²")).against("truth");
+                made.panels.push(panel);
+            }
+        }
     }
+    made.plots.push(("bias".into(), two_biases(sizes, &found[index("Reeves 1987")], &constant)));
     let curve = |title: &str, axis: &str, of: &dyn Fn(&(Judged, f64)) -> f64| {
         let mut plot = Plot::new(title, Axis::log("texels along a side of the map"), Axis::linear(axis));
         for (method, (name, _)) in METHODS.iter().enumerate() {
@@ -144,8 +158,25 @@ fn sizes(cx: &Context) -> anyhow::Result<Made> {
             "rms share",
         ),
     ];
-    made.note = "All biases are 3 to 4 texels, so that they shrink as the map grows. Pictures and truth are asked at the same points, one a pixel.".into();
+    made.note = "All biases are 3 to 4 texels, so that they shrink in the world as the map grows. Reeves' regions are as wide as three pixels of the \
+                 picture and do not shrink with them: on large maps they reach farther over the floor than so small a bias allows for (D-9), and \
+                 false shadow rises. With the bias held at the world units that it has on 512² it does not, as the first plot shows; but that bias detaches \
+                 shadows as far on every map. Pictures and truth are asked at the same points, one a pixel."
+        .into();
     Ok(made)
+}
+
+/// Reeves' false shadow against the map's size, by a bias that shrinks with the texels and by one that does not.
+fn two_biases(sizes: &[u32], shrinking: &[(Judged, f64)], constant: &[Judged]) -> String {
+    let line = |of: &dyn Fn(usize) -> f64| (0..sizes.len()).map(|at| (f64::from(sizes[at]), of(at))).collect();
+    Plot::new(
+        "Why Reeves' filter gets worse with larger maps",
+        Axis::log("texels along a side of the map"),
+        Axis::linear("false shadow, fraction (M2)"),
+    )
+    .add(Series::line("bias 3 to 4 texels: it shrinks as the map grows", line(&|at| shrinking[at].0.acne)))
+    .add(Series::line("bias in world units, as on 512²", line(&|at| constant[at].acne)))
+    .svg()
 }
 
 /// How far behind the far side of the leg that the close-up shows the floor stays lit, in world units (M7); 60 for a leg that throws no shadow.
@@ -201,160 +232,6 @@ fn grazing(cx: &Context) -> anyhow::Result<Made> {
     Ok(made)
 }
 
-fn row(name: &str, values: impl IntoIterator<Item = f64>) -> Vec<String> {
+pub(super) fn row(name: &str, values: impl IntoIterator<Item = f64>) -> Vec<String> {
     std::iter::once(name.to_string()).chain(values.into_iter().map(|value| format!("{value:.4}"))).collect()
-}
-
-pub const PRESETS: Figure = Figure {
-    id: "U-presets",
-    paper: Paper::Umbrage,
-    title: "All methods, all scenes, every fault by name",
-    claim: "No published method is free of false shadow and leaks on every scene; which fault each one has is a property of the method.",
-    make: presets,
-};
-
-/// A scene's name, what makes it, and whether every caster is a closed solid of more than a few texels.
-type Stage = (&'static str, Make, bool);
-
-const STAGES: [Stage; 12] = [
-    ("sphere, slab", gallery::sphere_plane, true),
-    ("box, slab", gallery::box_plane, true),
-    ("spot room", gallery::spot_room, true),
-    ("table", gallery::table, false),
-    ("contact box", gallery::contact_box, true),
-    ("pipes", gallery::pipes, false),
-    ("walk-through", gallery::walkthrough, false),
-    ("bowling", || gallery::bowling(0), false),
-    ("low sun", gallery::grazing, true),
-    ("thin slab", gallery::thin_slab, false),
-    ("flat sheets", || gallery::sheets(false), false),
-    ("bent sheets", || gallery::sheets(true), false),
-];
-
-fn presets(cx: &Context) -> anyhow::Result<Made> {
-    let (pixels, texels, cell) = (cx.pick(256, 96), cx.pick(512, 256), cx.pick(128, 96));
-    let mut found = vec![[Judged::default(); STAGES.len()]; METHODS.len()];
-    let mut sheet = Sheet::new(STAGES.len() as u32, METHODS.len() as u32 + 1, cell);
-    for (column, (_, make, _)) in STAGES.iter().enumerate() {
-        let set = Set::new(make(), pixels, texels);
-        let truth = set.truth_points(cx, &Frame::CENTRES);
-        let grey: Vec<Vec3> = truth.colour.clone();
-        sheet.place(column as u32, 0, truth.size, &grey);
-        for (method, (_, recipe)) in METHODS.iter().enumerate() {
-            let picture = set.by(cx, recipe, &Frame::CENTRES)?;
-            found[method][column] = judge(cx, &picture, &truth);
-            let apart = picture.shadow[0].iter().zip(&truth.shadow[0]).map(|(own, exact)| heat(own - exact));
-            sheet.place(column as u32, method as u32 + 1, truth.size, &apart.collect::<Vec<_>>());
-        }
-    }
-    let mut made = Made::default();
-    let faults: [(&str, Fault); 3] =
-        [("false shadow", |one| one.acne), ("leak", |one| one.leak), ("error, rms", |one| one.rms)];
-    for (name, of) in faults {
-        let line = |(method, row): (&Method, &[Judged; STAGES.len()])| {
-            let values: Vec<f64> = row.iter().map(of).collect();
-            let known: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
-            let mean = known.iter().sum::<f64>() / known.len() as f64;
-            self::row(method.0, values.into_iter().chain([mean]))
-        };
-        let rows = METHODS.iter().zip(&found).map(line).collect();
-        let head = std::iter::once(name).chain(STAGES.iter().map(|stage| stage.0)).chain(["mean"]);
-        made.tables.push(Table { name: name.into(), head: head.map(String::from).collect(), rows });
-    }
-    let names = STAGES.map(|stage| stage.0).join(", ");
-    let methods = METHODS.map(|method| method.0).join(", ");
-    let panel =
-        Panel::rgb("matrix", "Every method (rows) on every scene (columns), less truth", sheet.size, sheet.pixels);
-    made.panels.push(panel.with("columns", names).with("rows", format!("the scene, {methods}")).role(Role::Error));
-    let worst = |name: &str, of: Fault, solids: bool| {
-        let among = STAGES.iter().zip(&found[index(name)]).filter(|(stage, _)| stage.2 || !solids);
-        among.map(|(_, one)| of(one)).filter(|value| value.is_finite()).fold(0.0, f64::max)
-    };
-    let mut measures = vec![
-        Measure::at_most(
-            "second depth: worst false shadow on closed solids",
-            worst("Wang & Molnar 1994", |one| one.acne, true),
-            "share",
-            0.005,
-        ),
-        Measure::at_least(
-            "second depth: worst false shadow of all",
-            worst("Wang & Molnar 1994", |one| one.acne, false),
-            "share",
-            0.02,
-        ),
-        Measure::at_most(
-            "midpoints: worst false shadow on closed solids",
-            worst("Woo 1992", |one| one.acne, true),
-            "share",
-            0.02,
-        )
-        .full_size(cx.quick),
-        Measure::at_least(
-            "midpoints: worst false shadow of all",
-            worst("Woo 1992", |one| one.acne, false),
-            "share",
-            0.02,
-        ),
-    ];
-    let sum = |name: &str| found[index(name)].iter().map(|one| one.acne).sum::<f64>();
-    let others = METHODS.iter().filter(|method| method.0 != "midpoint in the cone").map(|method| sum(method.0));
-    measures.push(Measure::at_most(
-        "midpoints in the cone: false shadow on all scenes less the least of the others",
-        sum("midpoint in the cone") - others.fold(f64::INFINITY, f64::min),
-        "sum of shares",
-        0.0,
-    ));
-    let clean = |one: &Judged| !(one.acne > 0.005 || one.leak > 0.02 || one.rms.is_nan());
-    let counts = found.iter().map(|row| row.iter().filter(|one| clean(one)).count());
-    for (method, ((name, _), count)) in METHODS.iter().zip(counts).enumerate() {
-        let name = format!("{name}: scenes without false shadow above .5 % and leaks above 2 %");
-        let all = STAGES.len() as f64;
-        let measure = if method < PUBLISHED {
-            Measure::at_most(&name, count as f64, "of 12", all - 1.0)
-        } else {
-            Measure::info(&name, count as f64, "of 12")
-        };
-        measures.push(measure);
-    }
-    made.measures = measures;
-    made.note = "False shadow is looked for on lit surfaces that face the light, leaks on shadowed ones, both off truth's edges; the error is \
-                 that of every wholly covered pixel. Midpoints in Burley's cone are a mix that nobody published. Soft methods are judged against the hard truth of a point light. Maps are 512², a pixel is asked once."
-        .into();
-    Ok(made)
-}
-
-/// Pictures made small and laid out in rows and columns.
-struct Sheet {
-    size: UVec2,
-    cell: u32,
-    pixels: Vec<Vec3>,
-}
-
-impl Sheet {
-    fn new(columns: u32, rows: u32, cell: u32) -> Self {
-        let size = UVec2::new(columns, rows) * cell;
-        Self { size, cell, pixels: vec![Vec3::ZERO; (size.x * size.y) as usize] }
-    }
-
-    /// Each pixel of a cell is the mean of the picture's pixels under it; a picture of other proportions leaves a bar below.
-    fn place(&mut self, column: u32, row: u32, size: UVec2, picture: &[Vec3]) {
-        let scale = f64::from(size.max_element()) / f64::from(self.cell);
-        let span = |at: u32, most: u32| {
-            let from = (f64::from(at) * scale) as u32;
-            from..(((f64::from(at) + 1.0) * scale) as u32).max(from + 1).min(most)
-        };
-        for y in 0..self.cell {
-            for x in 0..self.cell {
-                let (columns, rows) = (span(x, size.x), span(y, size.y));
-                let all: Vec<Vec3> = rows
-                    .flat_map(|row| columns.clone().map(move |column| picture[(row * size.x + column) as usize]))
-                    .collect();
-                if !all.is_empty() {
-                    let at = (row * self.cell + y) * self.size.x + column * self.cell + x;
-                    self.pixels[at as usize] = all.iter().sum::<Vec3>() / all.len() as f32;
-                }
-            }
-        }
-    }
 }

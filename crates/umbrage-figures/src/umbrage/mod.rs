@@ -2,8 +2,11 @@
 
 mod curves;
 mod faults;
+mod letters;
+mod matrix;
 mod methods;
 mod paging;
+mod sheet;
 mod softness;
 
 use crate::figure::Figure;
@@ -15,7 +18,7 @@ pub const FIGURES: &[&Figure] = &[
     &faults::FAULTS,
     &methods::SIZES,
     &methods::GRAZING,
-    &methods::PRESETS,
+    &matrix::PRESETS,
     &paging::PAGING,
     &softness::SOFTNESS,
 ];

@@ -3,7 +3,7 @@
 use super::table::{RAYS, SECOND, SHADED};
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::masks::{acne, lit, of, value};
-use crate::stage::panels::{error_panel, shadow_panel, zoomed, zoomed_error};
+use crate::stage::panels::{error_panel, framed, shadow_panel, zoomed_colour, zoomed_error};
 use crate::stage::set::Set;
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
 use std::sync::Arc;
@@ -171,29 +171,49 @@ fn steep(cx: &Context) -> anyhow::Result<Made> {
          nearer than a texel's width over N·L, as over the bar."
             .into(),
     );
-    made.note = "Leaks are counted on the ball in umbra where N·L is below ¼. The failure needs an occluder nearer than the plane climbs from texel to \
+    made.note = "The pictures show the ball's shadow under the red bar in flat colours, without the cosine that hides it: bright on the ball is lit, dark is \
+                 in shadow, black is turned away from the light. What is bright within the bar's shadow is the leak. Leaks are counted on the ball in umbra where N·L is below ¼. The failure needs an occluder nearer than the plane climbs from texel to \
                  texel, a texel's width over N·L, and wider than a few texels: the scene is made for it. The plane's \
                  error is told by halvings of N·L; in finer steps it does not grow at each, as texels past the limb have no ball to compare with."
         .into();
     Ok(made)
 }
 
-/// The picture about the umbra, and its error; the truth's with the paper's rule.
+/// The whole picture and the part about the umbra, as [`painted`] shows them, and the part's error; the truth's with the paper's rule.
 fn about_umbra(set: &Set, name: &str, caption: &str, picture: &Picture, truth: &Picture) -> Vec<Panel> {
+    const PART: u32 = 2;
     let camera = &set.scene.camera;
     let at = camera.eye_to_texel(camera.world_to_eye().transform_point3(DVec3::new(-3.0, 0.0, RADIUS)));
     let middle: DVec2 = at / camera.size().as_dvec2();
+    let size = picture.size;
+    let whole = |name: &str, caption: &str, picture: &Picture| {
+        framed(&format!("{name}-whole"), caption, size, &painted(set, picture), middle, PART)
+    };
+    let close = |name: &str, caption: &str, picture: &Picture| {
+        zoomed_colour(name, &format!("{caption}, the frame enlarged"), size, &painted(set, picture), middle, PART)
+    };
     let error = format!("{caption}, less truth");
     let mut panels = vec![
-        zoomed(name, caption, picture, middle, 2).with("map", "256²").against("truth"),
-        zoomed_error(&format!("{name}-error"), &error, picture, truth, middle, 2),
+        whole(name, caption, picture).with("map", "256²").against("truth-whole"),
+        close(name, caption, picture).with("map", "256²").against("truth"),
+        zoomed_error(&format!("{name}-error"), &error, picture, truth, middle, PART),
     ];
     if name == "mixed" {
-        panels.push(zoomed("truth", "Ray-traced truth", truth, middle, 2).role(Role::Truth));
-        let (size, colour) = (picture.size, picture.colour.clone());
-        panels.push(Panel::rgb("whole", "The scene by the paper's rule", size, colour).with("map", "256²"));
+        panels.push(whole("truth", "Ray-traced truth", truth).role(Role::Truth));
+        panels.push(close("truth", "Ray-traced truth", truth).role(Role::Truth));
     }
     panels
+}
+
+/// The scene in flat colours, dark where it is in shadow and darkest where it faces away from the light: a leak near the terminator, where shading
+/// leaves next to nothing to be seen, is as bright as one anywhere.
+fn painted(set: &Set, picture: &Picture) -> Vec<Vec3> {
+    let paint = |i: usize| {
+        let Some(object) = set.scene.objects.get(picture.object[i] as usize) else { return set.scene.background };
+        let lit = if picture.facing[0][i] > 0.0 { 0.1 + 0.9 * (1.0 - picture.shadow[0][i]) } else { 0.04 };
+        object.material.diffuse * lit
+    };
+    (0..picture.object.len()).map(paint).collect()
 }
 
 /// Largest distance, along the light, between the ball's tangent planes and the ball itself at the nearest four texels, by halvings of N·L

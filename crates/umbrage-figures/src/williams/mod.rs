@@ -1,5 +1,6 @@
 //! Williams 1978.
 
+mod applied;
 mod scenes;
 mod shadow;
 mod views;
@@ -13,7 +14,7 @@ pub const FIGURES: &[&Figure] = &[
     &shadow::F3,
     &shadow::F4,
     &shadow::F5,
-    &shadow::F6,
+    &applied::F6,
     &scenes::F7,
     &scenes::F8,
     &scenes::COST,

@@ -1,20 +1,20 @@
-//! Williams 1978, Figures 3 to 6: the shadow image stage by stage (W78-18), and its place in the picture.
+//! Williams 1978, Figures 3 to 5: the shadow image stage by stage (W78-18).
 
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::four_spheres::{Alone, alone, dithered, faithful, interpolated, post, reduced, spheres};
 use crate::stage::masks::{lit, of, shadow_grid, value};
-use crate::stage::panels::{colour_panel, error_panel, shadow_image_panel, truth_panel};
+use crate::stage::panels::{error_panel, shadow_image_panel, truth_panel};
 use crate::stage::set::Set;
-use glam::{DVec2, DVec3, UVec2, Vec3};
+use glam::{DVec2, DVec3, UVec2};
 use std::sync::Arc;
 use umbrage_depth::{DepthMap, Raw, Tiled, bandlimit};
 use umbrage_oracle::metrics::{self, Grid};
 use umbrage_oracle::predict;
 use umbrage_plane::TexelRect;
-use umbrage_render::post::{darken, dequantise_edges, low_pass};
+use umbrage_render::post::{dequantise_edges, low_pass};
 use umbrage_render::{Frame, Picture};
 use umbrage_report::plot::{Axis, Plot, Series};
-use umbrage_report::{Made, Measure, Role};
+use umbrage_report::{Made, Measure};
 use umbrage_scene::gallery;
 
 pub const F3: Figure = Figure {
@@ -276,7 +276,7 @@ fn away_from_silhouettes(set: &Set, truth: &Picture) -> Vec<bool> {
 }
 
 /// The stages after the comparison at their defaults: two chain vertices to either side, one low-pass (W78-16..W78-18).
-fn filtered(size: UVec2, image: &[f32]) -> Vec<f32> {
+pub(super) fn filtered(size: UVec2, image: &[f32]) -> Vec<f32> {
     low_pass(size, &dequantise_edges(size, image, 2), 1)
 }
 
@@ -354,74 +354,4 @@ fn smoothing(cx: &Context) -> anyhow::Result<Made> {
         )),
         ..Made::default()
     })
-}
-
-pub const F6: Figure = Figure {
-    id: "W78-F6",
-    paper: Paper::Williams78,
-    title: "The shadow on the shaded picture",
-    claim: "Shaded by the same light, the cosine hides what is left of the artefacts.",
-    make: applied,
-};
-
-fn applied(cx: &Context) -> anyhow::Result<Made> {
-    const DENSITY: f32 = 0.7;
-    let set = spheres(cx);
-    let shaded = set.plain(cx, &Frame::CENTRES);
-    let truth = set.truth_points(cx, &Frame::CENTRES);
-    let image = filtered(shaded.size, &post(cx, &set, &shaded, faithful(4.0)).shadow);
-    let ours = darken(&shaded.colour, &image, DENSITY);
-    let exact = darken(&shaded.colour, &truth.shadow[0], DENSITY);
-    let band: Vec<bool> = of(&truth, |_| true).iter().zip(&truth.facing[0]).map(|(on, f)| *on && *f < 0.3).collect();
-    let brightest = shaded.colour.iter().map(|c| c.max_element()).fold(0.0, f32::max);
-    let grey = |colours: &[Vec3]| -> Vec<f32> { colours.iter().map(|c| c.element_sum() / (3.0 * brightest)).collect() };
-    let loud = |colours: &[Vec3]| -> Vec<f32> { grey(colours).iter().map(|v| 4.0 * v).collect() };
-    let shadow_error = value(metrics::rms(&image, &truth.shadow[0], &band));
-    let image_error = value(metrics::rms(&grey(&ours), &grey(&exact), &band));
-    let (kept, dimmed, inside) = highlights(cx, &set, &shaded, &truth, &image, DENSITY);
-    Ok(Made {
-        panels: vec![
-            colour_panel("shaded", "Without shadow", shaded.size, &shaded.colour),
-            colour_panel("applied", "Shadow applied", shaded.size, &ours).with("density", DENSITY).against("truth"),
-            colour_panel("truth", "Ray-traced truth, applied alike", shaded.size, &exact).role(Role::Truth),
-            error_panel("error", "Darkness less truth's, four times", shaded.size, &loud(&exact), &loud(&ours)),
-        ],
-        measures: vec![
-            Measure::info("shadow alone: error at N·L < .3", shadow_error, "rms share"),
-            Measure::at_most("shaded picture: error over it", image_error / shadow_error, "ratio", 1.0 / 3.0),
-            Measure::info("highlight pixels inside shadow", inside, "px"),
-            Measure::exactly("point by point: brightest highlight left there", kept, "", 0.0),
-            Measure::at_least("post-process: brightest highlight left there", dimmed, "", 1e-6),
-        ],
-        ..Made::default()
-    })
-}
-
-/// The brightest specular light left well inside truth's shadow on surfaces that face the light, point by point and after the
-/// post-process with `image` (W78-4, W78-5), and the number of such pixels that have any without shadow.
-fn highlights(
-    cx: &Context,
-    set: &Set,
-    shaded: &Picture,
-    truth: &Picture,
-    image: &[f32],
-    density: f32,
-) -> (f64, f64, f64) {
-    let mut matt = Set { scene: set.scene.clone(), map: set.map.clone() };
-    for object in &mut matt.scene.objects {
-        object.material.specular = Vec3::ZERO;
-    }
-    let per_sample = [set, &matt].map(|set| set.shoot(cx, faithful(4.0), &Frame::CENTRES).colour);
-    let plain = matt.plain(cx, &Frame::CENTRES).colour;
-    let afterwards = [&shaded.colour, &plain].map(|colour| darken(colour, image, density));
-    let inside =
-        metrics::both(&metrics::dark_mask(shadow_grid(truth), &truth.facing[0], 8, 0.05), &of(truth, |_| true));
-    let left = |[glossy, matt]: &[Vec<Vec3>; 2], i: usize| f64::from((glossy[i] - matt[i]).max_element());
-    let (mut kept, mut dimmed, mut count) = (0.0f64, 0.0f64, 0u32);
-    for i in (0..inside.len()).filter(|&i| inside[i] && (shaded.colour[i] - plain[i]).max_element() > 1e-3) {
-        count += 1;
-        kept = kept.max(left(&per_sample, i));
-        dimmed = dimmed.max(left(&afterwards, i));
-    }
-    (kept, dimmed, f64::from(count))
 }

@@ -2,7 +2,7 @@
 
 use super::room::middle_map;
 use crate::figure::{Context, Figure, Paper};
-use crate::stage::panels::{shadow_panel, zoomed};
+use crate::stage::panels::{colour_panel, shadow_panel, zoomed_colour};
 use crate::stage::set::Set;
 use glam::{DVec2, DVec3, UVec2, Vec3};
 use std::f64::consts::PI;
@@ -10,7 +10,7 @@ use umbrage_plane::{Rules, SurfacePoint, View};
 use umbrage_recipe::bind;
 use umbrage_render::Frame;
 use umbrage_report::plot::{Axis, Plot, Series};
-use umbrage_report::{Made, Measure, Panel};
+use umbrage_report::{Made, Measure};
 use umbrage_sample::{Jittered, Key};
 use umbrage_scene::tree::{Cone, Tree};
 use umbrage_scene::{Light, Material, Mesh, Object, Scene};
@@ -24,7 +24,8 @@ pub const RIM: Figure = Figure {
     make: rim,
 };
 
-/// A floor under a spot that looks straight down, half of its cone covered by a board.
+/// A floor under a spot that looks straight down, half of its cone covered by a board, which is the last object. The
+/// camera looks down too, from above the spot.
 fn covered_spot(rules: Rules) -> anyhow::Result<Scene> {
     let light = Light::spot("spot", DVec3::new(0.0, 60.0, 0.0), DVec3::ZERO, 60.0, 5.0, 120.0, UVec2::splat(256))?;
     let view = light.view.with_rules(rules);
@@ -37,13 +38,13 @@ fn covered_spot(rules: Rules) -> anyhow::Result<Scene> {
             Object::solid("board", Mesh::cuboid(Vec3::new(2.0, 20.0, -40.0), Vec3::new(40.0, 22.0, 40.0)), grey),
         ],
         lights: vec![Light { view, ..light }],
-        ambient: Vec3::ZERO,
+        ambient: Vec3::splat(0.06),
         background: Vec3::ZERO,
         camera: View::perspective(
-            DVec3::new(0.0, 15.0, 0.0),
-            DVec3::new(20.0, 0.0, 0.0),
+            DVec3::new(0.0, 100.0, 0.0),
+            DVec3::ZERO,
             DVec3::Z,
-            100f64.to_radians(),
+            46f64.to_radians(),
             1.0,
             200.0,
             UVec2::splat(512),
@@ -55,7 +56,7 @@ fn rim(cx: &Context) -> anyhow::Result<Made> {
     let mut made = Made::default();
     let listing = Rules { outside: Rules::OPEN.outside, beyond_cone: Rules::OPEN.beyond_cone, ..Rules::SPOT };
     let mut across = Plot::new(
-        "Light along a radius that nothing shadows, outside is dark",
+        "Light along a radius without shadow, outside dark",
         Axis::linear("texels outward from the rim"),
         Axis::linear("light arriving, share"),
     );
@@ -64,21 +65,21 @@ fn rim(cx: &Context) -> anyhow::Result<Made> {
         Axis::linear("texels outward from the rim"),
         Axis::linear("light arriving, share"),
     );
-    let mut ridges = Vec::new();
+    let (mut panels, mut alone, mut ridges) = (Vec::new(), Vec::new(), Vec::new());
     for (name, caption, rules) in
         [("listing", "Outside is lit (Reeves)", listing), ("woo", "Outside is dark (Woo)", Rules::SPOT)]
     {
         let set = Set::new(covered_spot(rules)?, cx.pick(512, 256), 256);
-        let picture = set.by(cx, "woo92,res-factor=3,min-size=3,samples=256", &Frame::CENTRES)?;
-        made.panels.push(shadow_panel(&format!("{name}-shadow"), &format!("{caption}: shadow alone"), &picture));
-        made.panels.push(Panel::rgb(name, caption, picture.size, picture.colour.clone()));
-        made.panels.push(zoomed(
-            &format!("{name}-zoom"),
-            &format!("{caption}, enlarged"),
-            &picture,
-            DVec2::new(0.40, 0.5),
-            8,
-        ));
+        let method = set.shadow(cx, "woo92,res-factor=3,min-size=3,samples=256")?;
+        // The board is in the map and not in the picture, which shows what lies under it.
+        let mut floor = Set { scene: set.scene.clone(), map: set.map.clone() };
+        floor.scene.objects.pop();
+        let picture = floor.draw(cx, &*method, &Frame::CENTRES);
+        panels.push(colour_panel(name, caption, picture.size, &picture.colour).with("board", "cut away"));
+        let enlarged = format!("{caption}, the rim in the board's shadow");
+        let rim = DVec2::new(0.09, 0.5);
+        panels.push(zoomed_colour(&format!("{name}-zoom"), &enlarged, picture.size, &picture.colour, rim, 8));
+        alone.push(shadow_panel(&format!("{name}-shadow"), &format!("{caption}: shadow alone"), &picture));
         let light = &set.scene.lights[0];
         let pattern = Jittered::default().with_num_samples(256);
         let shadow =
@@ -94,11 +95,12 @@ fn rim(cx: &Context) -> anyhow::Result<Made> {
             let tree = Tree::Product(vec![Tree::Cone(soft), Tree::Shadow { recipe: String::new() }]);
             let sides = [
                 ("in shadow", profile.clone()),
-                ("in light, hard rim", radial(cx, light, &*shadow, PI)),
-                ("in light, soft rim", radial(cx, &light.clone().with_tree(tree), &*shadow, PI)),
+                ("hard rim", radial(cx, light, &*shadow, PI)),
+                ("soft rim", radial(cx, &light.clone().with_tree(tree), &*shadow, PI)),
             ];
             for (side, profile) in sides {
-                let name = format!("Woo, {side}: steps at which light rises outward");
+                let place = if side == "in shadow" { side.to_string() } else { format!("in light, {side}") };
+                let name = format!("Woo, {place}: steps at which light rises outward");
                 made.measures.push(Measure::exactly(&name, rises(&profile) as f64, "", 0.0));
                 if side != "in shadow" {
                     across = across.add(Series::line(side, profile));
@@ -109,9 +111,13 @@ fn rim(cx: &Context) -> anyhow::Result<Made> {
     }
     made.measures.insert(0, Measure::at_least("ridge where outside is lit", ridges[0], "share of the light", 0.05));
     made.measures.insert(1, Measure::at_most("ridge where outside is dark", ridges[1], "share of the light", 1e-9));
+    made.panels = panels.into_iter().chain(alone).collect();
     made.plots.push(("rim".into(), plot.svg()));
     made.plots.push(("rim-in-light".into(), across.svg()));
-    made.note = "The rim is the cone's circle, not the map's square around it, and never the box around the finite depths: with midpoints most \
+    made.note = "Seen from above: the left half of the spot's circle lies under a board that is cut away in the picture. Reeves' listing counts \
+                 samples outside the cone as lit, so that regions that straddle the rim get a part of a light that does not \
+                 reach them: the thin bright arc. The shadow alone does not show it, because beyond the rim \
+                 no light is left to be shadowed. The rim is the cone's circle, not the map's square around it, and never the box around the finite depths: with midpoints most \
                  of a lit map is empty."
         .into();
     Ok(made)

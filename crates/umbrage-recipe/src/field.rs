@@ -1,0 +1,57 @@
+use crate::values::Values;
+use crate::{Kind, PresetName, RecipeError};
+
+/// One field of a recipe: a row of the table from which parsing, errors, writing, help and documentation come.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct Field {
+    /// Its name. Fields of different presets may have one name.
+    pub name: &'static str,
+    /// The presets that know it.
+    pub of: &'static [PresetName],
+    /// What its value may be.
+    pub kind: Kind,
+    /// What it does, a sentence without its full stop.
+    pub doc: &'static str,
+    /// Where it comes from: paper and section, or nothing.
+    pub source: &'static str,
+    /// Reads a value; false for one that is not of `kind`.
+    pub(crate) set: fn(&mut Values, &str, Kind) -> bool,
+    /// Writes the value; `None` where there is none to write.
+    pub(crate) get: fn(&Values) -> Option<String>,
+}
+
+impl Field {
+    /// The value that a preset has unless told otherwise; `None` where it is without one.
+    #[must_use]
+    pub fn default(&self, preset: PresetName) -> Option<String> {
+        (self.get)(&Values::of(preset))
+    }
+
+    pub(crate) fn read(&self, values: &mut Values, text: &str) -> Result<(), RecipeError> {
+        let read = (self.set)(values, text, self.kind);
+        read.then_some(()).ok_or_else(|| RecipeError::value(self.name, text, self.kind.to_string()))
+    }
+
+    /// The defaults in few words: what most presets have, then the others by name.
+    pub(crate) fn defaults(&self) -> String {
+        let of = |preset: &PresetName| match self.default(*preset) {
+            Some(value) if value == "inf" => "∞".into(),
+            Some(value) => format!("`{value}`"),
+            None => "none".into(),
+        };
+        let values: Vec<String> = self.of.iter().map(of).collect();
+        let count = |value: &String| values.iter().filter(|other| *other == value).count();
+        let Some(common) = values.iter().max_by_key(|value| count(value)) else { return String::new() };
+        let others = self.of.iter().zip(&values).filter(|(_, value)| *value != common);
+        let others = others.map(|(preset, value)| format!(", {value} ({})", preset.name()));
+        common.clone() + &others.collect::<String>()
+    }
+
+    pub(crate) fn presets(&self) -> String {
+        if self.of.len() == PresetName::ALL.len() {
+            return "all".into();
+        }
+        self.of.iter().map(|preset| preset.name()).collect::<Vec<_>>().join(", ")
+    }
+}
