@@ -14,9 +14,7 @@ pub fn run(root: &Path) -> anyhow::Result<bool> {
     steps.cargo("format", &["fmt", "--all", "--check"], &[])?;
     steps.cargo("lints", &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[])?;
     steps.tests(&["test", "--workspace"], &mut tests)?;
-    for example in examples(root)? {
-        steps.cargo("examples", &["run", "--quiet", "--package", "umbrage-examples", "--example", &example], &[])?;
-    }
+    steps.step("examples", || run_examples(root))?;
     steps.step("README's program in a package of its own", || crate::readme::run(root))?;
     // A page that links nowhere is worse than none.
     steps.cargo("documentation", &["doc", "--no-deps", "--workspace"], &[("RUSTDOCFLAGS", "-D warnings")])?;
@@ -25,6 +23,23 @@ pub fn run(root: &Path) -> anyhow::Result<bool> {
     // The quick figures stand there already and are used again.
     steps.own("kept pictures and numbers", &["figures", "--check", "--out", "target/ci-figures"])?;
     Ok(steps.tell(&tests))
+}
+
+/// Runs every example program, goes on after one that fails, and says which did. Whether all went well.
+fn run_examples(root: &Path) -> anyhow::Result<bool> {
+    let names = examples(root)?;
+    anyhow::ensure!(!names.is_empty(), "there is no example");
+    let mut all = true;
+    for name in names {
+        println!("--- {name}");
+        let args = ["run", "--quiet", "--package", "umbrage-examples", "--example", &name];
+        let good = Command::new(cargo()).args(args).current_dir(root).status()?.success();
+        if !good {
+            println!("{name} FAILED");
+        }
+        all &= good;
+    }
+    Ok(all)
 }
 
 /// The names of all example programs, in order.

@@ -44,7 +44,9 @@ pub use filters::{
     Conditional, FilteredDepth, IntegerFirst, MapRadius, OccluderFalloff, Opacity, Pcf, Soft, Softness, VirtualWhen,
     Williams, integer_first, williams,
 };
-pub use lights::{Around, AroundError, Evaluate, LatLong, LatLongError, Shadow, ShadowMap, Tags, Unshadowed, same_length};
+pub use lights::{
+    Around, AroundError, Evaluate, LatLong, LatLongError, Shadow, ShadowMap, Tags, Unshadowed, same_length,
+};
 pub use mean::weighted_mean;
 pub use presets::{Preset, StoredError};
 pub use probe::{Counters, Probe};
