@@ -113,6 +113,9 @@ fn patches_sheets_and_the_cones_of_spots_move_along() {
     }
 }
 
+/// What is measured of a scene.
+type Way<'a> = &'a dyn Fn(&Scene) -> Vec<f32>;
+
 #[test]
 fn truth_planar_shadows_and_the_post_process_move_along() {
     let home = small(gallery::sphere_plane(), 200, 256);
@@ -135,8 +138,7 @@ fn truth_planar_shadows_and_the_post_process_move_along() {
         let seen = asked(scene, &umbrage_shadow::Unshadowed);
         post::shadow_image(&seen.depth, &scene.camera, None, &light, Key::new(0, 0, 0)).shadow
     };
-    let ways: [(&str, &dyn Fn(&Scene) -> Vec<f32>); 3] =
-        [("truth", &truth), ("planar", &planar), ("post-process", &post_process)];
+    let ways: [(&str, Way); 3] = [("truth", &truth), ("planar", &planar), ("post-process", &post_process)];
     for (name, way) in ways {
         let expected = way(&home);
         for by in OFFSETS {

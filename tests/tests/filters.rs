@@ -75,6 +75,10 @@ impl Filter for IgnoresGlass {
 struct Honest;
 
 impl Filter for Honest {
+    #[expect(
+        clippy::redundant_closure_for_method_calls,
+        reason = "the method of one lifetime is not a function of all"
+    )]
     fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32 {
         mean(query, |seen| seen.dark())
     }

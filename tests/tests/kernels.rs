@@ -47,6 +47,10 @@ fn twin<P: Pattern + Copy>(pattern: P, filtered: impl Pattern + Copy, maps: &[Ar
     }
 }
 
+fn any<P: Pattern + Copy + Into<AnyPattern>>(pattern: P, maps: &[Arc<Tiled>]) {
+    twin(pattern, pattern.into(), maps);
+}
+
 #[test]
 fn r87_13_r87_22_simd_and_culling_agree_with_one_tap_at_a_time() {
     let maps = [
@@ -54,9 +58,6 @@ fn r87_13_r87_22_simd_and_culling_agree_with_one_tap_at_a_time() {
         baked(Kind::Axial, Sampling::Jittered { seed: 4 }),
         baked(Kind::Radial, Sampling::Centre),
     ];
-    fn any<P: Pattern + Copy + Into<AnyPattern>>(pattern: P, maps: &[Arc<Tiled>]) {
-        twin(pattern, pattern.into(), maps);
-    }
     twin(Jittered::default(), Jittered::default(), &maps);
     any(Centre, &maps);
     any(EveryTexel, &maps);

@@ -44,12 +44,14 @@ fn chore(args: impl IntoIterator<Item = OsString>) -> Result<Chore, String> {
         Some("help" | "--help" | "-h") => return Ok(Chore::Help),
         Some("ci") => Chore::Ci,
         Some("tidy") => Chore::Tidy,
-        _ => return Err(format!("there is no command {name:?}")),
+        _ => return Err(format!("there is no command {:?}", name.display().to_string())),
     };
     match rest.first() {
         None => Ok(chore),
         Some(flag) if flag == "--help" || flag == "-h" => Ok(Chore::Help),
-        Some(other) => Err(format!("{} takes no argument, so {other:?} means nothing", name.display())),
+        Some(other) => {
+            Err(format!("{} takes no argument, so {:?} means nothing", name.display(), other.display().to_string()))
+        }
     }
 }
 

@@ -55,7 +55,7 @@ impl Tile {
 /// Tiles of 32×32 texels, those without a surface left out (Reeves 1987, §3.3; R87-21): the native form of a map.
 ///
 /// Every tile knows its nearest and farthest depth, so that [`DepthMap::range`] can settle regions without a look-up (R87-22).
-/// Small compact surfaces take more room than in a [`Bbox`], scattered ones less (D-18).
+/// Small compact surfaces take more room than in a [`Bbox`](crate::Bbox), scattered ones less (D-18).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tiled {
     view: View,

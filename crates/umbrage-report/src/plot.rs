@@ -178,6 +178,7 @@ impl Plot {
     }
 
     /// Adds a series.
+    #[expect(clippy::should_implement_trait, reason = "a builder's step, not a sum")]
     pub fn add(mut self, series: Series) -> Self {
         self.series.push(series);
         self

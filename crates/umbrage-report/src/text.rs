@@ -1,5 +1,7 @@
 //! How text and numbers are put into HTML, SVG and CSV.
 
+use std::fmt::Write as _;
+
 /// Text that HTML and SVG take as text, inside elements and inside double-quoted attributes.
 pub fn escape(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
@@ -59,12 +61,13 @@ pub fn html(text: &str) -> String {
     for part in parts {
         let letters: Vec<char> = part.chars().collect();
         let power = power(&letters);
-        match part.strip_prefix(power.as_str()) {
+        // Writing to a string cannot fail.
+        let _ = match part.strip_prefix(power.as_str()) {
             Some(rest) if !power.is_empty() => {
-                out.push_str(&format!("<sup>{}</sup>{}", escape(&power.replace('-', "−")), escape(rest)));
+                write!(out, "<sup>{}</sup>{}", escape(&power.replace('-', "−")), escape(rest))
             }
-            _ => out.push_str(&format!("^{}", escape(part))),
-        }
+            _ => write!(out, "^{}", escape(part)),
+        };
     }
     out
 }

@@ -223,7 +223,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
     }
 
     /// Calls `f` with every tap of a region: what it meets, and the depth that is compared there. This is for transforms other than
-    /// "is it nearer?" (Reeves 1987, §6); mean [`Seen::dark`], weighted by [`Tap::weight`], is what [`Query::share`] gives.
+    /// "is it nearer?" (Reeves 1987, §6); mean [`Seen::dark`], weighted by [`Tap::weight`](umbrage_sample::Tap::weight), is what [`Query::share`] gives.
     ///
     /// ```
     /// # use umbrage_shadow::{Biased, Filter, Met, Probe, Query, Simd};

@@ -24,7 +24,7 @@ impl Channel {
     }
 }
 
-/// What [`Query::each`] reports of one tap.
+/// What [`Query::each`](crate::Query::each) reports of one tap.
 #[derive(Clone, Debug)]
 pub struct Seen<'a> {
     /// Where it is, and its weight.

@@ -13,6 +13,9 @@ use umbrage_shadow::{Pcf, ReceiverDepth, ShadowMap};
 ///
 /// # Errors
 /// The first receiver whose answer culling changes.
+///
+/// # Panics
+/// Never: the map and the view that it makes are valid.
 pub fn culling<M: DepthMap>(kept: impl Fn(&Raw) -> M, depth: &(impl ReceiverDepth + Copy)) -> Found {
     let view = lamp(Rules::OPEN);
     let by_ulps = |ulps: u32| (0..ulps).fold(10f32.next_down().next_down(), |depth, _| depth.next_up());

@@ -62,7 +62,7 @@ pub fn veil(subject: &Subject) -> Found {
         }
     }
     let behind = subject.over(&deep(&[step(30.0, Vec3::splat(0.5))]));
-    let plain = subject.over(&flat(lamp(Rules::OPEN), 30.0));
+    let plain = subject.over(&flat(&lamp(Rules::OPEN), 30.0));
     for at in points().take(20) {
         let (deep, plain) = (behind.fraction(&at, KEY), plain.fraction(&at, KEY));
         check(deep == 0.0 && plain == 0.0, || format!("{deep} and {plain} before a surface"))?;

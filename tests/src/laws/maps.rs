@@ -10,7 +10,10 @@ use umbrage_raster::Cull;
 use umbrage_render::Soup;
 use umbrage_scene::gallery;
 
-/// The sphere over its plane as a light sees it, in a map whose sides are no whole number of tiles.
+/// The sphere over its plane as a light sees it, in a map whose sides are not whole numbers of tiles.
+///
+/// # Panics
+/// Never: the size is valid.
 pub fn baked(kind: Kind, sampling: Sampling) -> Arc<Tiled> {
     let mut scene = gallery::sphere_plane();
     let view = scene.lights[0].view.with_size(UVec2::new(211, 157)).expect("a valid size");

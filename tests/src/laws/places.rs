@@ -24,9 +24,9 @@ pub fn point(view: &View, texel: Vec2, zeta: f64, half: f32) -> SurfacePoint {
 }
 
 /// A map that stores one depth everywhere.
-pub fn flat(view: View, depth: f32) -> Map {
+pub fn flat(view: &View, depth: f32) -> Map {
     let texels = view.size().element_product() as usize;
-    Raw::new(view, vec![depth; texels]).expect("a map").into()
+    Raw::new(*view, vec![depth; texels]).expect("a map").into()
 }
 
 fn ask(shadow: &dyn Shadow, at: &SurfacePoint) -> f32 {
@@ -39,7 +39,7 @@ pub fn outside(subject: &Subject) -> Found {
     for (rules, wanted) in [(Rules::OPEN, 0.0), (Rules::SPOT, 1.0), (Rules::AROUND, 0.0)] {
         for view in [lamp(rules), cone(rules)] {
             for stored in [3.0, f32::INFINITY] {
-                let shadow = subject.over(&flat(view, stored));
+                let shadow = subject.over(&flat(&view, stored));
                 for texel in [(-70.0, 31.0), (140.0, 31.0), (31.0, -70.0), (31.0, 140.0), (-80.0, 150.0)] {
                     for half in [0.0, 0.5, 4.0] {
                         let found = ask(&*shadow, &point(&view, texel.into(), 10.0, half));
@@ -57,7 +57,7 @@ pub fn outside(subject: &Subject) -> Found {
     // Inside the map, outside the cone: 16 texels of the map lie to each side of this corner.
     for (rules, wanted) in [(Rules::OPEN, 0.0), (Rules::SPOT, 1.0)] {
         let view = lamp(rules).with_cone(Some(0.1)).expect("a cone");
-        let shadow = subject.over(&flat(view, f32::INFINITY));
+        let shadow = subject.over(&flat(&view, f32::INFINITY));
         let found = ask(&*shadow, &point(&view, Vec2::splat(4.0), 10.0, 0.5));
         check(found == wanted, || format!("{found} instead of {wanted} outside the cone, {rules:?}"))?;
     }
@@ -67,7 +67,7 @@ pub fn outside(subject: &Subject) -> Found {
 /// A light whose rules darken what its map does not see gives at least the shadow of one whose rules do not, everywhere.
 pub fn dark_rules(subject: &Subject) -> Found {
     for stored in [3.0, 20.0] {
-        let over = |rules| subject.over(&flat(lamp(rules).with_cone(Some(0.24)).expect("a cone"), stored));
+        let over = |rules| subject.over(&flat(&lamp(rules).with_cone(Some(0.24)).expect("a cone"), stored));
         let (open, spot) = (over(Rules::OPEN), over(Rules::SPOT));
         for i in 0..400 {
             let texel = Vec2::new(KEY.unit(i, 0), KEY.unit(i, 1)) * 96.0 - 16.0;
@@ -83,7 +83,7 @@ pub fn dark_rules(subject: &Subject) -> Found {
 pub fn empty_and_full(subject: &Subject) -> Found {
     let view = lamp(Rules::SPOT);
     for (stored, wanted) in [(f32::INFINITY, 0.0), (50.0, 0.0), (3.0, 1.0)] {
-        let shadow = subject.over(&flat(view, stored));
+        let shadow = subject.over(&flat(&view, stored));
         for i in 0..100 {
             let texel = Vec2::new(KEY.unit(i, 0), KEY.unit(i, 1)) * 16.0 + 24.0;
             let at = SurfacePoint { region: i, ..point(&view, texel, 10.0, KEY.unit(i, 2) * 2.0) };

@@ -37,7 +37,7 @@ fn sun(size: UVec2) -> View {
 }
 
 /// As large a part of the plane that a view shows, but off its axis.
-fn windowed(view: View) -> View {
+fn windowed(view: &View) -> View {
     let corner = IVec2::new(3, -5);
     view.window(TexelRect::new(corner, corner + view.size().as_ivec2())).expect("valid")
 }
@@ -51,8 +51,8 @@ fn views(size: UVec2) -> Vec<View> {
                 spot(size).with_kind(kind),
                 sun(size).with_kind(kind).with_sampling(Sampling::Jittered { seed: 0xFEED_BEEF }),
                 spot(size).with_kind(kind).with_rules(Rules::VOLUME).with_cone(None).unwrap(),
-                windowed(spot(size)).with_kind(kind),
-                windowed(sun(size)).with_kind(kind),
+                windowed(&spot(size)).with_kind(kind),
+                windowed(&sun(size)).with_kind(kind),
             ]
         })
         .collect()

@@ -252,12 +252,10 @@ impl<M: DepthMap> Translucent for Face<'_, M> {
 
 /// The surfaces of a texel; the one of a plain map lets nothing pass.
 fn steps<M: DepthMap>(map: &M, texel: IVec2) -> Cow<'_, [Step]> {
-    match map.translucent() {
-        Some(deep) => deep.steps(texel),
-        None => {
-            let depth = map.depth(texel);
-            let seen = (depth < f32::INFINITY).then_some(Step { depth, passes: Vec3::ZERO });
-            Cow::Owned(seen.into_iter().collect())
-        }
+    if let Some(deep) = map.translucent() {
+        return deep.steps(texel);
     }
+    let depth = map.depth(texel);
+    let seen = (depth < f32::INFINITY).then_some(Step { depth, passes: Vec3::ZERO });
+    Cow::Owned(seen.into_iter().collect())
 }
