@@ -7,7 +7,7 @@
 //! Departures: (1) bilinear interpolation of an axial perspective map is done on −1/ζ, where planes are linear
 //! (W78-13, D-1); (2) [`Guard`] keeps blends across silhouettes out of the comparison (W78-14).
 
-use crate::{Filter, Probe, Query};
+use crate::{Filter, Probe, Query, Surfaces};
 use fearless_simd::Simd;
 use glam::{DMat4, DVec3, DVec4, IVec2, Vec2};
 use umbrage_depth::DepthMap;
@@ -138,8 +138,11 @@ impl Filter for Williams {
                 let (texels, fraction) = four(view, at);
                 let surfaces = texels.map(|texel| query.texel(texel));
                 if dark && query.map().translucent().is_some() {
-                    // What the surfaces of the four texels stop in all.
-                    lerp(surfaces.map(|surfaces| surfaces.dark(f32::INFINITY)), fraction)
+                    // What the surfaces of the four texels stop in all, of those that have any.
+                    let stops = lerp(surfaces.each_ref().map(|surfaces| surfaces.dark(f32::INFINITY)), fraction);
+                    let any = |surfaces: &Surfaces<'_>| f32::from(u8::from(surfaces.nearest() < f32::INFINITY));
+                    let there = lerp(surfaces.each_ref().map(any), fraction);
+                    if there > 0.0 { stops / there } else { 1.0 }
                 } else {
                     f32::from(u8::from(dark))
                 }
