@@ -21,7 +21,7 @@ pub struct DeepMap {
 
 impl DeepMap {
     /// From the steps of each texel of `view`, row by row, row 0 on top; none where there is no surface. They are kept as they are: see
-    /// [`compress_steps`]. `epsilon` tells how far they may stand from what they were made from, 0 for not at all.
+    /// [`compress_steps`]. `epsilon` is how far they may stand from what they were made from, 0 for not at all.
     ///
     /// # Errors
     /// When texels are missing or left over, depths of a texel do not ascend, are not finite or reach 1e30, or what passes is outside 0..=1 or grows;

@@ -1,7 +1,7 @@
 //! Triangles to exact coverage, tile by tile.
 //!
 //! [`Bins`] takes the triangles of a scene as one view sees them, cuts off what lies behind the view, snaps the corners to
-//! 1/256 texel and sorts the triangles into tiles of [`BIN`]² texels. [`Bins::tile`] then tells, for each triangle that
+//! 1/256 texel and sorts the triangles into tiles of [`BIN`]² texels. [`Bins::tile`] then reports, for each triangle that
 //! reaches a tile, exactly which texels' samples it covers, as often as it is asked and from any thread.
 //!
 //! ```

@@ -22,7 +22,7 @@ pub struct Field {
 }
 
 impl Field {
-    /// The value that a preset has unless told otherwise; `None` where it is without one.
+    /// The value that a preset has by default; `None` where it is without one.
     #[must_use]
     pub fn default(&self, preset: PresetName) -> Option<String> {
         (self.get)(&Values::of(preset))

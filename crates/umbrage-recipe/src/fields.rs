@@ -383,7 +383,7 @@ pub const FIELDS: &[Field] = &[
         SOFT,
         Kind::Positive,
         |values| values.nearest,
-        "with `light`: no occluder is nearer to the light, world units; the near plane unless told",
+        "with `light`: no occluder is nearer to the light, world units; the near plane by default",
         ""
     ),
     plain!(

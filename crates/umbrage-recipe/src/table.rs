@@ -30,7 +30,7 @@ impl Field {
 #[must_use]
 pub fn markdown() -> String {
     let mut table =
-        String::from("| field | of | values | unless told | what it does | source |\n|---|---|---|---|---|---|\n");
+        String::from("| field | of | values | default | what it does | source |\n|---|---|---|---|---|---|\n");
     for field in FIELDS {
         let values = match field.kind {
             Kind::Words(words) => words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", "),

@@ -11,7 +11,7 @@ use umbrage_sample::Key;
 use umbrage_scene::{Light, Material, Mesh, Object, Scene, Shape, gallery};
 use umbrage_shadow::Shadow;
 
-/// A light at (0, 0, 100) looking down −z at 32 × 32 world units, half a unit a texel.
+/// A light at (0, 0, 100) looking down −z at 32 × 32 world units, half a unit per texel.
 fn light() -> Light {
     Light::directional("sun", DVec3::Z, DVec3::ZERO, 16.0, 1.0, 200.0, UVec2::splat(64)).unwrap()
 }

@@ -7,7 +7,7 @@ use umbrage_depth::{DeepMap, DepthMap, First, Raw};
 use umbrage_plane::{TexelRect, View};
 use umbrage_raster::{Cull, Triangle};
 
-/// Looks down −z from (0, 0, 100) at 32 × 32 world units, half a unit a texel.
+/// Looks down −z from (0, 0, 100) at 32 × 32 world units, half a unit per texel.
 fn above() -> View {
     View::orthographic(DVec3::Z * 100.0, DVec3::ZERO, DVec3::Y, 16.0, 1.0, 200.0, UVec2::splat(64)).unwrap()
 }

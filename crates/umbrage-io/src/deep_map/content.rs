@@ -19,7 +19,7 @@ pub(super) fn is_grey(map: &DeepMap) -> bool {
     texels.flat_map(|texel| map.steps(texel)).all(grey)
 }
 
-/// All that a map holds beside its view, for its digest. Numbers of steps are told by their bits.
+/// All that a map holds beside its view, for its digest. Numbers of steps go in as their bits.
 pub(super) fn numbers(map: &DeepMap) -> impl Iterator<Item = f32> {
     let texels = TexelRect::of_size(map.view().size()).texels();
     let texels = texels.flat_map(|texel| {
