@@ -22,7 +22,7 @@ fn sized(mut scene: Scene, texels: u32) -> Scene {
 /// no silhouette throws.
 fn within_cone(light: &View, at: DVec3) -> f64 {
     let eye = light.world_to_eye().transform_point3(at);
-    let reach = light.cone().map_or(f64::INFINITY, |tan| -eye.z * tan);
+    let reach = light.cone().map_or(f64::INFINITY, |cos| -eye.z * cos.acos().tan());
     (reach - eye.truncate().length()) / light.texel_world(-eye.z).max_element()
 }
 

@@ -2,8 +2,8 @@ use crate::pass1::Pass;
 use crate::{Baked, Caster};
 use glam::{DMat3, DVec2, DVec3};
 use umbrage_depth::DepthRule;
-use umbrage_plane::{Facet, Facing, Projection, View};
-use umbrage_raster::Cull;
+use umbrage_plane::{Facet, Facing, Projection, TexelRect, View};
+use umbrage_raster::{Bins, Cull};
 
 /// [`bake`](crate::bake) for curved surfaces: which side of a surface is seen is asked of its *interpolated* normals at each sample, the test of
 /// N·L < 0 (Wang & Molnar 1994; WM94-1 iii). With [`BackFace`](umbrage_depth::BackFace) only what faces away by that test is stored.
@@ -21,7 +21,9 @@ pub fn bake_by_normals<R: DepthRule>(
         Some(Some(side)) => side.dot(ray(view, at)) > 0.0,
         _ => facet.facing == Facing::Front,
     };
-    Pass { view, fine: view, rule, front }.run(casters.iter().map(|caster| caster.triangle), Cull::None)
+    let triangles = casters.iter().map(|caster| caster.triangle);
+    let bins = Bins::new(view, TexelRect::of_size(view.size()), Cull::None, triangles);
+    Pass { view, fine: view, rule, front }.run(&bins, Cull::None)
 }
 
 /// A vector whose product with [`ray`] has the sign of N·L at each place of a triangle; `None` for one that is edge-on or

@@ -23,7 +23,8 @@ pub struct Baked {
 /// maximum. Tiles that nobody touches are never allocated. What is nearer than the near plane is stored at the
 /// near plane (C-10). The result does not depend on the number of threads.
 pub fn bake<R: DepthRule>(view: &View, triangles: impl IntoIterator<Item = Triangle>, rule: &R, cull: Cull) -> Baked {
-    Pass { view, fine: view, rule, front: |facet: &Facet, _| facet.facing == Facing::Front }.run(triangles, cull)
+    let bins = Bins::new(view, TexelRect::of_size(view.size()), cull, triangles);
+    Pass { view, fine: view, rule, front: by_winding }.run(&bins, cull)
 }
 
 /// [`bake`] with `axis` × `axis` samples a texel, all of whose fragments count for the texel: what *hits* it, not what lies at one place
@@ -42,7 +43,13 @@ pub fn bake_multi<R: DepthRule>(
     axis: u32,
 ) -> Result<Baked, ViewError> {
     let fine = view.with_size(view.size().saturating_mul(UVec2::splat(axis)))?;
-    Ok(Pass { view, fine: &fine, rule, front: |facet: &Facet, _| facet.facing == Facing::Front }.run(triangles, cull))
+    let bins = Bins::new(&fine, TexelRect::of_size(fine.size()), cull, triangles);
+    Ok(Pass { view, fine: &fine, rule, front: by_winding }.run(&bins, cull))
+}
+
+/// Whether a facet's outside is seen: the side from which its corners are counter-clockwise.
+fn by_winding(facet: &Facet, _: DVec2) -> bool {
+    facet.facing == Facing::Front
 }
 
 /// What Reeves advises for a light's map: from once to twice the picture's resolution along each axis, starting with once
@@ -66,15 +73,14 @@ pub(crate) struct Pass<'a, R, F> {
 const CELLS: usize = (BIN * BIN) as usize;
 
 impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
-    /// Draws, reduces and resolves.
-    pub fn run(&self, triangles: impl IntoIterator<Item = Triangle>, cull: Cull) -> Baked {
-        let bins = Bins::new(self.fine, TexelRect::of_size(self.fine.size()), cull, triangles);
+    /// Reduces and resolves what was drawn with `fine` and `cull`.
+    pub fn run(&self, bins: &Bins, cull: Cull) -> Baked {
         let grid = self.view.size().map(|side| side.div_ceil(BIN));
         let (made, fragments): (Vec<Option<Tile>>, Vec<u64>) = (0..grid.x * grid.y)
             .into_par_iter()
             .map(|index| {
                 let tile = UVec2::new(index % grid.x, index / grid.x);
-                let (cells, fragments) = self.cells(&bins, tile);
+                let (cells, fragments) = self.cells(bins, tile);
                 (cells.and_then(|cells| self.resolve(&cells, tile)), fragments)
             })
             .unzip();

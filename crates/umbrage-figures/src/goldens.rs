@@ -11,14 +11,17 @@ use umbrage_report::Report;
 use umbrage_report::text::{csv_field, file_stem, rounded};
 
 /// A picture of the README: its file, and the figure and panel that it is.
-struct Picture {
-    file: &'static str,
-    figure: &'static str,
-    panel: &'static str,
+pub struct Picture {
+    /// From the repository's root.
+    pub file: &'static str,
+    /// The figure's id.
+    pub figure: &'static str,
+    /// The panel's name.
+    pub panel: &'static str,
 }
 
 /// The README's pictures.
-const PICTURES: &[Picture] = &[
+pub const PICTURES: &[Picture] = &[
     Picture { file: "fixtures/readme/hero.png", figure: "R87-F14", panel: "shop" },
     Picture { file: "fixtures/readme/robot.png", figure: "W78-F8", panel: "robot" },
     Picture { file: "fixtures/readme/lamps.png", figure: "R87-F12", panel: "c-jittered" },
@@ -113,8 +116,8 @@ impl Goldens {
     }
 }
 
-/// How two PNG files differ by more than the tolerance.
-fn picture_differs(kept: &[u8], made: &[u8]) -> Option<String> {
+/// How two PNG files, given as bytes, differ by more than the tolerance; `None` where they do not.
+pub fn picture_differs(kept: &[u8], made: &[u8]) -> Option<String> {
     let (kept, made) = match (umbrage_io::decode_png(kept), umbrage_io::decode_png(made)) {
         (Ok(kept), Ok(made)) => (kept, made),
         (Err(fault), _) | (_, Err(fault)) => return Some(fault.to_string()),
@@ -155,9 +158,9 @@ fn figure_of(row: &str) -> &str {
     row.split(',').next().unwrap_or(row)
 }
 
-/// What differs between kept and made numbers. Figures that were not made are passed over, unless they are no longer in
+/// What differs between the kept and the made numbers, both CSV, one finding a line. Figures that were not made are passed over, unless they are no longer in
 /// the catalogue.
-fn numbers_differ(kept: &str, made: &str) -> Vec<String> {
+pub fn numbers_differ(kept: &str, made: &str) -> Vec<String> {
     let (kept, made) = (rows(kept), rows(made));
     let was_made = |row: &str| made.iter().any(|(name, _)| figure_of(name) == figure_of(row));
     let exists = |row: &str| catalogue::figures().any(|figure| figure.id == figure_of(row));
@@ -178,49 +181,5 @@ fn alike(old: &str, new: &str) -> bool {
     match (old.parse::<f64>(), new.parse::<f64>()) {
         (Ok(old), Ok(new)) => (old - new).abs() <= NUMBERS_APART * old.abs().max(new.abs()).max(1e-6),
         _ => old == new,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use glam::Vec3;
-
-    #[test]
-    fn every_picture_of_the_readme_belongs_to_a_figure() {
-        for picture in PICTURES {
-            assert!(catalogue::figures().any(|figure| figure.id == picture.figure), "{}", picture.figure);
-        }
-    }
-
-    #[test]
-    fn pictures_may_differ_by_little_in_many_pixels_and_by_much_in_few() {
-        let png = |pixels: &[Vec3]| umbrage_io::encode_png(UVec2::new(100, 100), pixels).unwrap();
-        let plain = vec![Vec3::splat(0.5); 10_000];
-        let lighter = vec![Vec3::splat(0.505); 10_000];
-        let mut spotted = plain.clone();
-        spotted[..10].fill(Vec3::ONE);
-        assert_eq!(picture_differs(&png(&plain), &png(&lighter)), None);
-        assert_eq!(picture_differs(&png(&plain), &png(&spotted)), None);
-        spotted[10] = Vec3::ONE;
-        assert_eq!(picture_differs(&png(&plain), &png(&spotted)).unwrap(), "11 pixels differ by more than 3 codes");
-        let small = umbrage_io::encode_png(UVec2::new(1, 1), &[Vec3::ONE]).unwrap();
-        assert_eq!(picture_differs(&small, &png(&plain)).unwrap(), "is 1 × 1, the code makes 100 × 100");
-        assert!(picture_differs(b"no picture", &small).is_some());
-    }
-
-    #[test]
-    fn numbers_that_move_come_or_go_are_told() {
-        let head = "figure,measure,value,unit\n";
-        let kept = format!("{head}R87-F7,\"noise, rms\",0.5,share\nR87-F7,old,1,\nW78-F1,discs,4,\nX-1,gone,1,\n");
-        let made = format!("{head}R87-F7,\"noise, rms\",0.6,share\nR87-F7,new,1,\n");
-        let expected = [
-            "R87-F7,\"noise, rms\" [share] is 0.5, the code makes 0.6",
-            "does not hold R87-F7,new []",
-            "the code makes no R87-F7,old []",
-            "the code makes no X-1,gone []",
-        ];
-        assert_eq!(numbers_differ(&kept, &made), expected);
-        assert_eq!(numbers_differ(&kept.replace("0.5", "0.6003"), &made).len(), 3, "within the tolerance");
     }
 }

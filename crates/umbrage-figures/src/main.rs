@@ -107,14 +107,3 @@ fn run(cli: &Cli) -> anyhow::Result<Outcome> {
     println!("{}", summary(&report, &cli.out));
     Ok(if report.count(Verdict::Missed) > 0 { Outcome::Missed } else { Outcome::Good })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_command_line_is_sound() {
-        use clap::CommandFactory;
-        Cli::command().debug_assert();
-    }
-}

@@ -2,8 +2,8 @@ use crate::error::{Fault, IoError};
 use crate::file::{read_bytes, write_bytes};
 use exr::prelude as exr;
 use glam::{UVec2, Vec3};
-use image::codecs::png::{CompressionType, FilterType, PngDecoder, PngEncoder};
-use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, Limits};
+use png::{BitDepth, ColorType};
+use std::fmt::Display;
 use std::io::Cursor;
 use std::path::Path;
 
@@ -33,7 +33,7 @@ pub fn linear_to_srgb8(linear: f32) -> u8 {
 pub fn encode_png(size: UVec2, linear_rgb: &[Vec3]) -> Result<Vec<u8>, Fault> {
     check_length(size, linear_rgb.len())?;
     let codes: Vec<u8> = linear_rgb.iter().flat_map(|pixel| pixel.to_array().map(linear_to_srgb8)).collect();
-    encode(size, &codes, ExtendedColorType::Rgb8)
+    encode(size, &codes, ColorType::Rgb)
 }
 
 /// As [`encode_png`], in shades of grey: 0 is black, 1 is white, linear light.
@@ -43,7 +43,7 @@ pub fn encode_png(size: UVec2, linear_rgb: &[Vec3]) -> Result<Vec<u8>, Fault> {
 pub fn encode_png_grey(size: UVec2, linear_grey: &[f32]) -> Result<Vec<u8>, Fault> {
     check_length(size, linear_grey.len())?;
     let codes: Vec<u8> = linear_grey.iter().map(|grey| linear_to_srgb8(*grey)).collect();
-    encode(size, &codes, ExtendedColorType::L8)
+    encode(size, &codes, ColorType::Grayscale)
 }
 
 /// Writes [`encode_png`]'s bytes, as a whole or not at all.
@@ -78,16 +78,26 @@ pub fn read_png(path: &Path) -> Result<Codes, IoError> {
 /// # Errors
 /// A [`Fault`], when the bytes are no PNG of a size within the limit.
 pub fn decode_png(bytes: &[u8]) -> Result<Codes, Fault> {
-    let broken = |error: image::ImageError| Fault::new("PNG data", format!("{} bytes", bytes.len()), error);
-    let mut limits = Limits::default();
-    limits.max_alloc = Some(MOST_PIXELS * 8);
-    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(broken)?;
-    let (width, height) = decoder.dimensions();
+    let broken = |error: &dyn Display| Fault::new("PNG data", format!("{} bytes", bytes.len()), error);
+    let limits = png::Limits { bytes: MOST_PIXELS as usize * 8 };
+    let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), limits);
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let (width, height) = decoder.read_header_info().map_err(|error| broken(&error))?.size();
     if u64::from(width) * u64::from(height) > MOST_PIXELS {
         return Err(Fault::new("IHDR size", format!("{width} x {height}"), format!("more than {MOST_PIXELS} pixels")));
     }
-    let picture = DynamicImage::from_decoder(decoder).map_err(broken)?.into_rgb8();
-    Ok(Codes { size: UVec2::new(width, height), rgb: picture.pixels().map(|pixel| pixel.0).collect() })
+    let mut reader = decoder.read_info().map_err(|error| broken(&error))?;
+    let length = reader.output_buffer_size().ok_or_else(|| broken(&"more bytes than fit in memory"))?;
+    let mut samples = vec![0; length];
+    reader.next_frame(&mut samples).map_err(|error| broken(&error))?;
+    let (colour, depth) = reader.output_color_type();
+    if depth == BitDepth::Sixteen {
+        let rounded = |pair: &[u8]| ((u32::from(u16::from_be_bytes([pair[0], pair[1]])) + 128) / 257) as u8;
+        samples = samples.chunks_exact(2).map(rounded).collect();
+    }
+    let grey = matches!(colour, ColorType::Grayscale | ColorType::GrayscaleAlpha);
+    let pixel = |samples: &[u8]| if grey { [samples[0]; 3] } else { [samples[0], samples[1], samples[2]] };
+    Ok(Codes { size: UVec2::new(width, height), rgb: samples.chunks_exact(colour.samples()).map(pixel).collect() })
 }
 
 /// An EXR file's bytes with channels R, G, B as 32-bit floats, linear light, ZIP; the same bytes for the same picture.
@@ -150,10 +160,13 @@ fn check_length(size: UVec2, length: usize) -> Result<(), Fault> {
     Ok(())
 }
 
-fn encode(size: UVec2, codes: &[u8], kind: ExtendedColorType) -> Result<Vec<u8>, Fault> {
+fn encode(size: UVec2, codes: &[u8], colour: ColorType) -> Result<Vec<u8>, Fault> {
     let mut bytes = Vec::new();
-    PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive)
-        .write_image(codes, size.x, size.y, kind)
-        .map_err(|error| Fault::new("picture", format!("{} x {}", size.x, size.y), error))?;
+    let mut encoder = png::Encoder::new(&mut bytes, size.x, size.y);
+    encoder.set_color(colour);
+    encoder.set_compression(png::Compression::Balanced);
+    encoder.set_filter(png::Filter::Adaptive);
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(codes));
+    written.map_err(|error| Fault::new("picture", format!("{} x {}", size.x, size.y), error))?;
     Ok(bytes)
 }

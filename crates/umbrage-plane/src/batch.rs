@@ -3,7 +3,7 @@
 
 #![expect(clippy::needless_range_loop, reason = "one index names a lane in several arrays")]
 
-use crate::{Footprint, Kind, Projection, Receiver, SurfacePoint, View, Where, vectorized};
+use crate::{Footprint, Kind, Place, Projection, Receiver, SurfacePoint, View, vectorized};
 use glam::{DMat4, DVec2, DVec3, Vec2, Vec3};
 use std::array::from_fn;
 
@@ -85,13 +85,13 @@ impl View {
     ///
     /// # Panics
     /// When `at` and `out` are not of one length.
-    pub fn receivers(&self, at: &[SurfacePoint], out: &mut [Result<Receiver, Where>]) {
+    pub fn receivers(&self, at: &[SurfacePoint], out: &mut [Result<Receiver, Place>]) {
         assert_eq!(at.len(), out.len(), "as many receivers as points");
         vectorized!(_ => self.fill(at, out));
     }
 
     #[inline(always)]
-    fn fill(&self, at: &[SurfacePoint], out: &mut [Result<Receiver, Where>]) {
+    fn fill(&self, at: &[SurfacePoint], out: &mut [Result<Receiver, Place>]) {
         let (points, rest) = at.as_chunks::<LANES>();
         let (seen, seen_rest) = out.as_chunks_mut::<LANES>();
         for (points, seen) in points.iter().zip(seen) {
@@ -103,7 +103,7 @@ impl View {
     }
 
     #[inline(always)]
-    fn eight(&self, at: &[SurfacePoint; LANES], out: &mut [Result<Receiver, Where>; LANES]) {
+    fn eight(&self, at: &[SurfacePoint; LANES], out: &mut [Result<Receiver, Place>; LANES]) {
         let eye = Lanes3::gathered(|i| at[i].position).turned(&self.world_to_eye).plus(&self.origin());
         let normal = Lanes3::gathered(|i| at[i].normal.as_dvec3()).turned(&self.world_to_eye);
         let Seen { facing, slope, depth, texel_world } = self.seen(&eye, &normal);

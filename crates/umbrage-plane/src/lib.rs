@@ -28,6 +28,7 @@
 #![warn(missing_debug_implementations)]
 
 mod affine;
+mod altered;
 mod around;
 mod batch;
 mod builders;
@@ -40,6 +41,7 @@ mod receiver;
 mod rect;
 mod sampling;
 mod simd;
+mod spaces;
 mod view;
 mod view_error;
 
@@ -54,7 +56,7 @@ pub use footprint::Footprint;
 pub use look::up_for;
 pub use named::SpotView;
 pub use planar::planar_shadow;
-pub use policy::{Rules, Verdict, Where};
+pub use policy::{Place, Rules, Verdict};
 pub use receiver::{Bias, Receiver, SurfacePoint};
 pub use rect::TexelRect;
 pub use sampling::{Sampling, mix32};

@@ -63,7 +63,7 @@ impl View {
         let up = up.unwrap_or_else(|| up_for(target - eye));
         Self::perspective(eye, target, up, full_angle_radians, near, far, size)?
             .with_rules(Rules::SPOT)
-            .with_cone(Some((0.5 * full_angle_radians).tan()))
+            .with_cone(Some((0.5 * full_angle_radians).cos()))
     }
 
     /// A light at infinity in the direction `toward_light` (from the scene to the light, of any length but 0), whose map just

@@ -1,6 +1,6 @@
 /// Where a point or a sample lies as seen from a light: the six cases that the papers conflate (spec C-10).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Where {
+pub enum Place {
     /// Behind a perspective light: ζ ≤ 0.
     Behind,
     /// In front, but outside the map's rectangle.
@@ -26,7 +26,7 @@ pub enum Verdict {
     Compare,
 }
 
-/// The verdict for each case of [`Where`]; part of a [`View`](crate::View).
+/// The verdict for each case of [`Place`]; part of a [`View`](crate::View).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rules {
     /// Behind the light.
@@ -75,16 +75,16 @@ impl Rules {
         far: Verdict::Lit,
     };
 
-    /// The verdict for a place; [`Where::Inside`] is always compared.
+    /// The verdict for a place; [`Place::Inside`] is always compared.
     #[inline(always)]
-    pub const fn verdict(&self, place: Where) -> Verdict {
+    pub const fn verdict(&self, place: Place) -> Verdict {
         match place {
-            Where::Behind => self.behind,
-            Where::Outside => self.outside,
-            Where::BeyondCone => self.beyond_cone,
-            Where::Near => self.near,
-            Where::Far => self.far,
-            Where::Inside => Verdict::Compare,
+            Place::Behind => self.behind,
+            Place::Outside => self.outside,
+            Place::BeyondCone => self.beyond_cone,
+            Place::Near => self.near,
+            Place::Far => self.far,
+            Place::Inside => Verdict::Compare,
         }
     }
 }

@@ -1,4 +1,4 @@
-use crate::{Affine, DepthPlane, Footprint, Kind, Projection, Verdict, View, Where};
+use crate::{Affine, DepthPlane, Footprint, Kind, Place, Projection, Verdict, View};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// A region of surface to be shaded, in world space.
@@ -141,7 +141,7 @@ impl View {
     /// # Errors
     /// The place, when that alone settles the answer by this view's [`Rules`](crate::Rules): behind the light, or nearer or farther than the range under rules that do not compare there.
     #[inline(always)]
-    pub fn receiver(&self, at: &SurfacePoint) -> Result<Receiver, Where> {
+    pub fn receiver(&self, at: &SurfacePoint) -> Result<Receiver, Place> {
         let eye = self.world_to_eye.transform_point3(at.position);
         let zeta = -eye.z;
         self.reached(zeta)?;
@@ -172,15 +172,15 @@ impl View {
 
     /// The place at an axial distance, when that alone settles the answer.
     #[inline(always)]
-    pub(crate) fn reached(&self, zeta: f64) -> Result<(), Where> {
+    pub(crate) fn reached(&self, zeta: f64) -> Result<(), Place> {
         if self.is_perspective() && (zeta <= 0.0 || zeta.is_nan()) {
-            return Err(Where::Behind);
+            return Err(Place::Behind);
         }
         if zeta < self.near && self.rules.near != Verdict::Compare {
-            return Err(Where::Near);
+            return Err(Place::Near);
         }
         if zeta > self.far && self.rules.far != Verdict::Compare {
-            return Err(Where::Far);
+            return Err(Place::Far);
         }
         Ok(())
     }

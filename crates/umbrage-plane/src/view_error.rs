@@ -79,8 +79,8 @@ pub enum ViewError {
         /// Far distance.
         far: f64,
     },
-    /// A cone of light whose tangent is not positive and finite.
-    #[error("view cone tangent {0} is not positive and finite")]
+    /// A cone of light the cosine of whose half-angle is not within [0, 1).
+    #[error("cosine {0} of the half-angle of the view's cone is not within [0, 1)")]
     Cone(f64),
     /// A map side of 0 or more than 32,768 texels.
     #[error("view size {width} x {height} is not within 1..={MOST_TEXELS} texels on each side")]

@@ -2,10 +2,10 @@
 
 use glam::{DVec3, IVec2, UVec2, Vec3};
 use proptest::prelude::*;
-use umbrage_plane::{Kind, Receiver, Rules, SurfacePoint, TexelRect, View, Where};
+use umbrage_plane::{Kind, Place, Receiver, Rules, SurfacePoint, TexelRect, View};
 
 /// Every bit of a receiver; one pattern stands for all NaNs.
-fn bits(seen: &Result<Receiver, Where>) -> Result<Vec<u64>, Where> {
+fn bits(seen: &Result<Receiver, Place>) -> Result<Vec<u64>, Place> {
     let Receiver { kind, footprint, texel, axes, depth, texel_world, facing, slope, object, eye, normal } = (*seen)?;
     let singles =
         [vec![footprint.centre, footprint.half, texel_world], footprint.corners.to_vec(), axes.to_vec()].concat();
@@ -56,7 +56,7 @@ proptest! {
     #[test]
     fn batches_are_the_receivers_one_by_one(points in prop::collection::vec(point(), 0..40)) {
         for view in views() {
-            let mut together = vec![Err(Where::Outside); points.len()];
+            let mut together = vec![Err(Place::Outside); points.len()];
             view.receivers(&points, &mut together);
             for (point, together) in points.iter().zip(&together) {
                 prop_assert_eq!(bits(together), bits(&view.receiver(point)), "{:?} in {:?}", point, view);
@@ -67,12 +67,12 @@ proptest! {
 
 #[test]
 fn every_place_is_met_in_a_batch() {
-    use Where::{Behind, Far, Inside, Near};
+    use Place::{Behind, Far, Inside, Near};
     let spot = views()[1];
     assert_eq!(*spot.rules(), Rules::VOLUME);
     let at = |along: f64| SurfacePoint::at(DVec3::new(3.0, 10.0, -2.0) + spot.ahead() * along, Vec3::Y);
     let points = [9.0, -1.0, 1.0, 30.0, 9.0, 0.0, f64::NAN, 13.0].map(at);
-    let mut seen = [Err(Where::Outside); 8];
+    let mut seen = [Err(Place::Outside); 8];
     spot.receivers(&points, &mut seen);
     let places = seen.map(|seen| seen.map_or_else(|place| place, |_| Inside));
     assert_eq!(places, [Inside, Behind, Near, Far, Inside, Behind, Behind, Inside]);
@@ -81,5 +81,5 @@ fn every_place_is_met_in_a_batch() {
 #[test]
 #[should_panic(expected = "as many receivers as points")]
 fn lengths_that_differ_are_refused() {
-    views()[0].receivers(&[], &mut [Err(Where::Outside)]);
+    views()[0].receivers(&[], &mut [Err(Place::Outside)]);
 }

@@ -2,7 +2,7 @@
 //! six places of C-10. World and eye space are right-handed, rows go down (C-1, C-3).
 
 use glam::{DMat4, DVec2, DVec3, DVec4, IVec2, UVec2, Vec2, Vec3};
-use umbrage_plane::{Bias, Footprint, Kind, Rules, SurfacePoint, TexelRect, Verdict, View, Where, planar_shadow};
+use umbrage_plane::{Bias, Footprint, Kind, Place, Rules, SurfacePoint, TexelRect, Verdict, View, planar_shadow};
 
 const P: Vec3 = Vec3::new(2.0, 1.0, -3.0);
 const N: DVec3 = DVec3::new(0.2, 1.0, 0.3);
@@ -181,23 +181,23 @@ fn v67_effective_slope_and_cone_guarantee_d_15() {
 
 #[test]
 fn c_10_places_and_rules() {
-    let view = lamp(64).with_rules(Rules::SPOT).with_cone(Some(1.0)).unwrap();
-    assert_eq!(view.receiver(&SurfacePoint::at(Vec3::new(0.0, 11.0, 0.0), Vec3::Y)), Err(Where::Behind));
-    assert_eq!(view.locate(Vec2::new(-0.001, 5.0)), Where::Outside);
-    assert_eq!(view.locate(Vec2::new(64.0, 5.0)), Where::Outside);
-    assert_eq!(view.locate(Vec2::new(1.0, 1.0)), Where::BeyondCone);
-    assert_eq!(view.locate(Vec2::new(32.0, 1.0)), Where::Inside);
-    assert_eq!(view.locate(Vec2::NAN), Where::Outside);
+    let view = lamp(64).with_rules(Rules::SPOT).with_cone(Some(1.0_f64.atan().cos())).unwrap();
+    assert_eq!(view.receiver(&SurfacePoint::at(Vec3::new(0.0, 11.0, 0.0), Vec3::Y)), Err(Place::Behind));
+    assert_eq!(view.locate(Vec2::new(-0.001, 5.0)), Place::Outside);
+    assert_eq!(view.locate(Vec2::new(64.0, 5.0)), Place::Outside);
+    assert_eq!(view.locate(Vec2::new(1.0, 1.0)), Place::BeyondCone);
+    assert_eq!(view.locate(Vec2::new(32.0, 1.0)), Place::Inside);
+    assert_eq!(view.locate(Vec2::NAN), Place::Outside);
     // Near and far still compare unless the rules say otherwise (T-18).
     let below_far = SurfacePoint::at(Vec3::new(0.0, -200.0, 0.0), Vec3::Y);
     let before_near = SurfacePoint::at(Vec3::new(0.0, 9.5, 0.0), Vec3::Y);
     assert!(view.receiver(&below_far).is_ok() && view.receiver(&before_near).is_ok());
     let strict = view.with_rules(Rules::VOLUME);
-    assert_eq!(strict.receiver(&below_far), Err(Where::Far));
-    assert_eq!(strict.receiver(&before_near), Err(Where::Near));
-    assert_eq!(Rules::SPOT.verdict(Where::BeyondCone), Verdict::Shadowed);
-    assert_eq!(Rules::OPEN.verdict(Where::Outside), Verdict::Lit);
-    assert_eq!(Rules::OPEN.verdict(Where::Inside), Verdict::Compare);
+    assert_eq!(strict.receiver(&below_far), Err(Place::Far));
+    assert_eq!(strict.receiver(&before_near), Err(Place::Near));
+    assert_eq!(Rules::SPOT.verdict(Place::BeyondCone), Verdict::Shadowed);
+    assert_eq!(Rules::OPEN.verdict(Place::Outside), Verdict::Lit);
+    assert_eq!(Rules::OPEN.verdict(Place::Inside), Verdict::Compare);
 }
 
 #[test]
@@ -311,8 +311,8 @@ fn views_refuse_what_they_cannot_mean() {
         assert!(with(bad * turned).is_err(), "{bad}");
     }
     let view = with(turned).unwrap();
-    assert!(view.with_cone(Some(0.5)).is_ok() && view.with_cone(None).is_ok());
-    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+    assert!([Some(0.0), Some(0.5), None].into_iter().all(|cone| view.with_cone(cone).is_ok()));
+    for bad in [1.0, -0.1, f64::NAN, f64::INFINITY] {
         assert!(view.with_cone(Some(bad)).is_err(), "{bad}");
     }
 }

@@ -1,7 +1,7 @@
 //! How views are made: each fault is named, lights by named fields, rays through texels.
 
 use glam::{DVec2, DVec3, UVec2, Vec3};
-use umbrage_plane::{Rules, Sectors, SpotView, SurfacePoint, View, ViewError, Where, sector_views, up_for};
+use umbrage_plane::{Place, Rules, Sectors, SpotView, SurfacePoint, View, ViewError, sector_views, up_for};
 
 const SIZE: UVec2 = UVec2::splat(64);
 const NAN: f64 = f64::NAN;
@@ -123,10 +123,12 @@ fn a_spot_is_a_perspective_view_with_its_cone() {
     let view = View::spot(spot).unwrap();
     assert_eq!((view.world_to_eye(), view.projection()), (plain.world_to_eye(), plain.projection()));
     assert_eq!(*view.rules(), Rules::SPOT);
-    assert_eq!(view.cone(), Some((0.5 * spot.full_angle_radians).tan()));
+    assert_eq!(view.cone(), Some((0.5 * spot.full_angle_radians).cos()));
     // The middle of a side is on the cone; the corners are beyond it.
-    assert_eq!(view.locate(glam::Vec2::new(32.0, 0.01)), Where::Inside);
-    assert_eq!(view.locate(glam::Vec2::new(1.0, 1.0)), Where::BeyondCone);
+    assert_eq!(view.locate(glam::Vec2::new(32.0, 0.01)), Place::Inside);
+    assert_eq!(view.locate(glam::Vec2::new(1.0, 1.0)), Place::BeyondCone);
+    // A half-angle of 90° leaves nothing out that is in the map.
+    assert_eq!(view.with_cone(Some(0.0)).unwrap().locate(glam::Vec2::new(1.0, 1.0)), Place::Inside);
 }
 
 #[test]
@@ -146,7 +148,7 @@ fn a_directional_light_sees_all_of_its_box_and_little_more() {
                 let pick = |bit: u32, low: f64, high: f64| if corner >> bit & 1 == 1 { high } else { low };
                 let at = DVec3::new(pick(0, min.x, max.x), pick(1, min.y, max.y), pick(2, min.z, max.z));
                 let eye = view.world_to_eye().transform_point3(at);
-                assert_eq!(view.locate(view.eye_to_texel(eye).as_vec2()), Where::Inside, "{toward} {at}");
+                assert_eq!(view.locate(view.eye_to_texel(eye).as_vec2()), Place::Inside, "{toward} {at}");
                 assert!(-eye.z > view.near() && -eye.z < view.far());
                 let seen = view.eye_to_texel(eye).extend(-eye.z);
                 reach = [reach[0].min(seen), reach[1].max(seen)];

@@ -91,7 +91,7 @@ fn receivers_rays_and_places_land_shifted_by_the_corner() {
 
 #[test]
 fn a_crop_keeps_the_cone_and_moves_with_its_view() {
-    let whole = wholes()[0].with_cone(Some(0.5)).unwrap();
+    let whole = wholes()[0].with_cone(Some(0.5_f64.atan().cos())).unwrap();
     for window in WINDOWS {
         let crop = whole.window(window).unwrap();
         let inside = TexelRect::of_size(whole.size()).intersect(window);

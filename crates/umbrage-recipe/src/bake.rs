@@ -7,17 +7,17 @@ use umbrage_depth::{BackFace, DepthRule, First, Map, Second, Tiled};
 use umbrage_plane::View;
 use umbrage_raster::{Cull, Triangle};
 
+/// The triangles of one moment.
+pub(crate) type Moment<'a> = Box<dyn Iterator<Item = Caster> + 'a>;
+
 impl Values {
     /// `moments` are at evenly spread times: deep maps hold their mean, and of rules that keep one surface each texel sees one of them.
-    pub fn bake<M>(&self, view: &View, moments: impl IntoIterator<Item = M>) -> Map
-    where
-        M: IntoIterator<Item: Into<Caster>>,
-    {
+    pub fn bake(&self, view: &View, moments: &mut dyn Iterator<Item = Moment<'_>>) -> Map {
         if self.rule == Rule::Deep {
             let deep = self.sub_samples.map_or(self.deep, |axis| self.deep.with_axis(axis));
             return bake_deep(view, moments, &deep).into();
         }
-        let mut maps: Vec<Arc<Tiled>> = moments.into_iter().map(|moment| self.flat(view, moment)).collect();
+        let mut maps: Vec<Arc<Tiled>> = moments.map(|moment| self.flat(view, moment)).collect();
         match (maps.len(), maps.pop()) {
             (1, Some(map)) => map.into(),
             (_, last) => {
@@ -28,11 +28,11 @@ impl Values {
     }
 
     /// One surface per texel.
-    fn flat(&self, view: &View, casters: impl IntoIterator<Item: Into<Caster>>) -> Arc<Tiled> {
+    fn flat(&self, view: &View, casters: Moment<'_>) -> Arc<Tiled> {
         if self.rule == Rule::Normals {
             return bake_by_normals(view, casters, &BackFace).map;
         }
-        let triangles = casters.into_iter().map(|caster| -> Triangle { caster.into().triangle });
+        let triangles = casters.map(|caster| caster.triangle);
         match self.rule {
             Rule::First | Rule::Deep | Rule::Normals => self.sampled(view, triangles, &First, Cull::None),
             Rule::Second => self.sampled(view, triangles, &Second, Cull::None),

@@ -1,3 +1,4 @@
+use crate::bake::Moment;
 use crate::values::Values;
 use crate::{PresetName, RecipeError, kind};
 use umbrage_bake::Caster;
@@ -94,7 +95,9 @@ impl Recipe {
     where
         M: IntoIterator<Item: Into<Caster>>,
     {
-        self.values.bake(view, moments)
+        // Whatever triangles come as, all rules over them are compiled once, here.
+        let casters = |moment: M| -> Moment<'_> { Box::new(moment.into_iter().map(Into::into)) };
+        self.values.bake(view, &mut moments.into_iter().map(casters))
     }
 
     /// The algorithm over a map.

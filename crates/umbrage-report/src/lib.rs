@@ -24,6 +24,7 @@
 
 pub mod diagram;
 mod folder;
+pub mod letters;
 mod made;
 mod measure;
 mod page;

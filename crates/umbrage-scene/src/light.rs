@@ -142,9 +142,9 @@ impl Light {
 
     fn reaches(&self, world: DVec3) -> bool {
         match self.view.cone() {
-            Some(tan_half) if self.view.is_perspective() => {
+            Some(cos_half) if self.view.is_perspective() => {
                 let eye = self.view.world_to_eye().transform_point3(world);
-                -eye.z > 0.0 && eye.truncate().length_squared() <= (tan_half * eye.z).powi(2)
+                -eye.z > 0.0 && eye.length_squared() * (cos_half * cos_half) <= eye.z * eye.z
             }
             _ => true,
         }

@@ -1,10 +1,10 @@
-use umbrage_plane::Where;
+use umbrage_plane::Place;
 
 /// Is told what a filter does, for counters and for explanations. Every method does nothing unless overridden, and `()` is the probe that costs nothing.
 pub trait Probe {
     /// A receiver whose answer its place alone settled.
     #[inline(always)]
-    fn placed(&mut self, place: Where) {
+    fn placed(&mut self, place: Place) {
         let _ = place;
     }
     /// A region settled by depth ranges without a look-up; `dark` is the answer.
@@ -68,7 +68,7 @@ impl Counters {
 }
 
 impl Probe for Counters {
-    fn placed(&mut self, _place: Where) {
+    fn placed(&mut self, _place: Place) {
         self.placed += 1;
     }
     fn culled(&mut self, dark: bool) {

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, UVec2, Vec2, Vec3};
 use umbrage_depth::{Raw, Tiled};
-use umbrage_plane::{Bias, Footprint, Kind, Receiver, Rules, SurfacePoint, View, Where};
+use umbrage_plane::{Bias, Footprint, Kind, Place, Receiver, Rules, SurfacePoint, View};
 use umbrage_sample::{EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Uniform};
 use umbrage_shadow::as_printed::{Counts, FootprintConvention, Listing, RandRange, TextureRect, counts, sample_shadow};
 use umbrage_shadow::{Biased, Counters, Filter, FilteredDepth, OnPlane, Pcf, Shadow, ShadowMap, Spread, presets};
@@ -250,7 +250,7 @@ fn v32_samples_outside_a_cone_are_dark_for_a_spot_w92_6_e_r13() {
     // The cone of 75° in a map of 90°: its rim crosses the middle row at 32 − 32 · tan 37.5° = 7.4455.
     let tan_half = 37.5f64.to_radians().tan();
     assert!((tan_half - 0.767_327).abs() < 1e-6);
-    let cone = lamp(64).with_cone(Some(tan_half)).unwrap();
+    let cone = lamp(64).with_cone(Some(37.5f64.to_radians().cos())).unwrap();
     let rim = receiver(&lamp(64), 10.0, Vec2::new(7.4455 + 0.1, 32.0), Vec2::new(0.2, 0.01));
     let mean = |rules| {
         (0..400).map(|i| fraction(filter, lit(cone.with_rules(rules)), &rim, KEY.region(i))).sum::<f32>() / 400.0
@@ -346,7 +346,7 @@ fn r87_2_light_space_is_a_signed_axial_distance() {
     // Off the axis the distance along it counts, not the distance from the light; behind it there is no receiver.
     let receiver = view.receiver(&SurfacePoint::at(Vec3::new(6.0, -8.0, 3.0), Vec3::Y)).unwrap();
     assert_eq!((receiver.kind, receiver.depth), (Kind::Axial, 8.0));
-    assert_eq!(view.receiver(&SurfacePoint::at(Vec3::new(6.0, 8.0, 3.0), Vec3::Y)), Err(Where::Behind));
+    assert_eq!(view.receiver(&SurfacePoint::at(Vec3::new(6.0, 8.0, 3.0), Vec3::Y)), Err(Place::Behind));
 }
 
 fn mean(pattern: impl umbrage_sample::Pattern, map: &Raw, region: &Receiver) -> f32 {

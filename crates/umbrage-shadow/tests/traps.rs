@@ -35,7 +35,7 @@ fn ask<F: Filter>(filter: &F, map: &impl DepthMap, receiver: &Receiver, key: Key
 #[test]
 fn t_3_the_background_around_the_finite_box_is_lit_inside_a_spot_s_cone() {
     // One caster in a corner of the cone: the box around it is no rim of light (W92-6), whatever the storage and the cull.
-    let view = lamp(64).with_rules(Rules::SPOT).with_cone(Some(0.9)).unwrap();
+    let view = lamp(64).with_rules(Rules::SPOT).with_cone(Some(0.9_f64.atan().cos())).unwrap();
     let caster = |texel: IVec2| texel.cmpge(IVec2::splat(20)).all() && texel.cmplt(IVec2::splat(24)).all();
     let depths = TexelRect::of_size(view.size()).texels().map(|texel| if caster(texel) { 4.0 } else { f32::INFINITY });
     let raw = Raw::new(view, depths.collect()).unwrap();
@@ -61,7 +61,7 @@ fn t_3_the_background_around_the_finite_box_is_lit_inside_a_spot_s_cone() {
 #[test]
 fn t_5_an_empty_box_does_not_light_what_lies_outside_the_cone() {
     // Nothing in the map at all: the cull would say lit, the cone says dark.
-    let view = lamp(64).with_rules(Rules::SPOT).with_cone(Some(0.5)).unwrap();
+    let view = lamp(64).with_rules(Rules::SPOT).with_cone(Some(0.5_f64.atan().cos())).unwrap();
     let map = Bbox::from(&Raw::new(view, vec![f32::INFINITY; 64 * 64]).unwrap());
     let shadow = ShadowMap { filter: presets::reeves87().filter, map };
     let at = |x: f32| shadow.fraction(&SurfacePoint::at(Vec3::new(x, -10.0, 0.0), Vec3::Y), KEY);

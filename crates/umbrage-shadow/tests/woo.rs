@@ -3,7 +3,7 @@
 use glam::{DVec3, UVec2, Vec2, Vec3};
 use proptest::prelude::*;
 use umbrage_depth::{DepthMap, Raw};
-use umbrage_plane::{Bias, Footprint, Receiver, Rules, SurfacePoint, TexelRect, View, Where};
+use umbrage_plane::{Bias, Footprint, Place, Receiver, Rules, SurfacePoint, TexelRect, View};
 use umbrage_sample::{EveryTexel, InsideQuadWarp, Jittered, Key, Pattern, Tent};
 use umbrage_shadow::as_printed::{Listing, RandRange, TextureRect, sample_shadow};
 use umbrage_shadow::integer_first::{behind, whole};
@@ -48,7 +48,7 @@ fn v32_w92_6_four_of_sixteen_samples_outside_the_square_or_the_circle() {
         let view = view.with_rules(rules);
         ask(&exhaustive(), &map(&view, |_, _| f32::INFINITY), &receiver(&view, centre, Vec2::splat(2.0)), KEY, &mut ())
     };
-    let (square, circle) = (lamp(64), lamp(64).with_cone(Some(0.5)).unwrap());
+    let (square, circle) = (lamp(64), lamp(64).with_cone(Some(0.5_f64.atan().cos())).unwrap());
     for (view, centre) in [(&square, Vec2::new(63.0, 32.0)), (&circle, Vec2::new(47.0, 32.0))] {
         assert_eq!(share(view, Rules::OPEN, centre), 0.0, "Reeves'");
         assert_eq!(share(view, Rules::SPOT, centre), 0.25, "Woo's");
@@ -64,16 +64,18 @@ fn v32_w92_6_the_inscribed_cone_is_a_quarter_of_pi_of_the_map() {
     let view = View::perspective(DVec3::ZERO, DVec3::NEG_Y, DVec3::NEG_Z, fov, 1.0, 100.0, UVec2::splat(1024)).unwrap();
     let inside = |view: &View| {
         let texels = TexelRect::of_size(view.size()).texels();
-        let found = texels.filter(|texel| view.locate(texel.as_vec2() + 0.5) == Where::Inside).count();
+        let found = texels.filter(|texel| view.locate(texel.as_vec2() + 0.5) == Place::Inside).count();
         found as f64 / (1024.0 * 1024.0)
     };
     assert_eq!(inside(&view), 1.0);
-    assert!((inside(&view.with_cone(Some(tan)).unwrap()) - std::f64::consts::FRAC_PI_4).abs() < 2e-4);
+    assert!(
+        (inside(&view.with_cone(Some(37.5f64.to_radians().cos())).unwrap()) - std::f64::consts::FRAC_PI_4).abs() < 2e-4
+    );
 }
 
 #[test]
 fn w92_6_regions_wholly_outside_and_points_behind_are_dark_under_a_spot() {
-    let view = lamp(64).with_cone(Some(0.5)).unwrap();
+    let view = lamp(64).with_cone(Some(0.5_f64.atan().cos())).unwrap();
     let fraction = |rules, at: Vec3| {
         let map = map(&view.with_rules(rules), |_, _| f32::INFINITY);
         ShadowMap { filter: presets::woo92().filter, map }.fraction(&SurfacePoint::at(at, Vec3::Y), KEY)
@@ -195,7 +197,7 @@ proptest! {
 fn agrees<P: Pattern + Copy>(pattern: P, unit: f32) {
     let close =
         |i: u32| [9.5, 10.0, 10f32.next_up(), 10f32.next_down(), 10.4, 40.0, 2.0, f32::INFINITY][i as usize % 8];
-    let view = lamp(64).with_rules(Rules::SPOT).with_cone(Some(0.8)).unwrap();
+    let view = lamp(64).with_rules(Rules::SPOT).with_cone(Some(0.8_f64.atan().cos())).unwrap();
     let stored = map(&view, |x, y| close(KEY.bits((x * 64 + y) as u32, 5)));
     let integer = IntegerFirst::default().with_pattern(pattern).with_res_factor(1.5).with_min_size(0.5).with_unit(unit);
     let float = Pcf::default()

@@ -9,7 +9,7 @@ use umbrage_plane::{Rules, SurfacePoint};
 
 /// A map of blocks at three depths with holes, and points before, between and behind them, inside and outside.
 fn scene() -> (Map, Vec<SurfacePoint>) {
-    let view = lamp(Rules::SPOT).with_cone(Some(0.26)).expect("a cone");
+    let view = lamp(Rules::SPOT).with_cone(Some(0.26_f64.atan().cos())).expect("a cone");
     let block = |i: u32| (i / 64 / 16) * 4 + i % 64 / 16;
     let stored = |i: u32| [4.0, 9.0, 14.0, f32::INFINITY][(KEY.bits(block(i), 3) % 4) as usize];
     let map = Raw::new(view, (0..64 * 64).map(stored).collect()).expect("a map");

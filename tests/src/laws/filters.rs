@@ -49,13 +49,13 @@ pub fn every_filter() -> Vec<Subject> {
         Subject::new("williams", Williams::default().with_dither(Dither::HALF_TEXEL)),
         Subject::new("williams, interpolated", bilinear(Guard::default())),
         Subject::new("williams, faithful", bilinear(Guard::Faithful).with_bias(Bias::Steps(1.0))),
-        Subject::new("wang and molnar", Conditional::default()),
+        Subject::new("wang and molnar", wang(Jittered::default().into())),
         Subject::new("wang and molnar, weighted", wang(Tent.into()).with_res_factor(1.0)),
         Subject::new(
             "wang and molnar, always",
             wang(EveryTexel.into()).with_when(VirtualWhen::Always).with_min_size(1.5),
         ),
-        Subject::new("burley", Soft::default()),
+        Subject::new("burley", burley()),
         Subject::new("burley, rescued", burley().with_rescue(true)),
         Subject::new("burley, radii of several units", burley().with_softness(between).with_radius_gamma(0.5)),
         Subject::new("burley, by the light's size", burley().with_softness(light(0.5))),
@@ -71,5 +71,6 @@ pub fn every_filter() -> Vec<Subject> {
 /// A filter whose shadows thin with the distance of what casts them: no law about how dark they are is for it.
 pub fn thinning() -> Subject {
     let opacity = Opacity::default().with_near(0.9).with_far(0.2).with_fade(20.0).with_gamma(0.7);
-    Subject::new("burley, faint far away", Soft::default().with_opacity(opacity))
+    let burley = Soft::default().with_depth(AnyDepth::from(BiasCone::default()));
+    Subject::new("burley, faint far away", burley.with_opacity(opacity))
 }

@@ -35,7 +35,7 @@ fn ask(shadow: &dyn Shadow, at: &SurfacePoint) -> f32 {
 
 /// A whole map's width beyond its border no region reaches back inside, whatever its size.
 pub fn outside(subject: &Subject) -> Found {
-    let cone = |rules| lamp(rules).with_cone(Some(0.2)).expect("a cone");
+    let cone = |rules| lamp(rules).with_cone(Some(0.2_f64.atan().cos())).expect("a cone");
     for (rules, wanted) in [(Rules::OPEN, 0.0), (Rules::SPOT, 1.0), (Rules::AROUND, 0.0)] {
         for view in [lamp(rules), cone(rules)] {
             for stored in [3.0, f32::INFINITY] {
@@ -56,7 +56,7 @@ pub fn outside(subject: &Subject) -> Found {
     }
     // Inside the map, outside the cone: 16 texels of the map lie to each side of this corner.
     for (rules, wanted) in [(Rules::OPEN, 0.0), (Rules::SPOT, 1.0)] {
-        let view = lamp(rules).with_cone(Some(0.1)).expect("a cone");
+        let view = lamp(rules).with_cone(Some(0.1_f64.atan().cos())).expect("a cone");
         let shadow = subject.over(&flat(&view, f32::INFINITY));
         let found = ask(&*shadow, &point(&view, Vec2::splat(4.0), 10.0, 0.5));
         check(found == wanted, || format!("{found} instead of {wanted} outside the cone, {rules:?}"))?;
@@ -67,7 +67,8 @@ pub fn outside(subject: &Subject) -> Found {
 /// A light whose rules darken what its map does not see gives at least the shadow of one whose rules do not, everywhere.
 pub fn dark_rules(subject: &Subject) -> Found {
     for stored in [3.0, 20.0] {
-        let over = |rules| subject.over(&flat(&lamp(rules).with_cone(Some(0.24)).expect("a cone"), stored));
+        let over =
+            |rules| subject.over(&flat(&lamp(rules).with_cone(Some(0.24_f64.atan().cos())).expect("a cone"), stored));
         let (open, spot) = (over(Rules::OPEN), over(Rules::SPOT));
         for i in 0..400 {
             let texel = Vec2::new(KEY.unit(i, 0), KEY.unit(i, 1)) * 96.0 - 16.0;

@@ -329,19 +329,3 @@ fn halved(size: UVec2, grey: &[f32], most: u32) -> (UVec2, Vec<f32>) {
     let texels = TexelRect::of_size(small).texels().map(|at| at.as_uvec2() * step);
     (small, texels.map(|at| grey[(at.y * size.x + at.x) as usize]).collect())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_parts_of_the_time_are_the_whole_of_it_and_none_is_negative() -> anyhow::Result<()> {
-        let stage = Stage::new(without_slab(gallery::sphere_plane()), 24, 8)?;
-        let times = measure(&Context { quick: true, ..Context::default() }, &stage)?;
-        let parts = times.breakdown();
-        assert!(parts.iter().all(|part| *part >= 0.0), "{parts:?}");
-        assert!((parts.iter().sum::<f64>() - 100.0).abs() < 1e-9, "{parts:?}");
-        assert!(times.pass_2.receivers > 0 && times.pass_2.look_ups > 0.0 && times.transform > 0.0);
-        Ok(())
-    }
-}

@@ -2,7 +2,6 @@
 
 mod curves;
 mod faults;
-mod letters;
 mod matrix;
 mod methods;
 mod paging;

@@ -1,8 +1,8 @@
 //! Many small pictures in rows and columns, with what they are written beside them and what is found in them written into them.
 
-use super::letters;
 use glam::{UVec2, Vec3};
 use umbrage_oracle::heat;
+use umbrage_report::letters;
 
 /// Pixels left for the rows' names and above the columns' names.
 const LEFT: u32 = 88;

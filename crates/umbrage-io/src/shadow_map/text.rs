@@ -49,8 +49,8 @@ fn of_view(view: &View, stored: Stored) -> String {
     line("kind", kind);
     line("sampling", &sampling);
     line("rules", &rules);
-    if let Some(tan_half) = view.cone() {
-        line("cone", &numbers(&[tan_half]));
+    if let Some(cos_half) = view.cone() {
+        line("cone_cos", &numbers(&[cos_half]));
     }
     // Nearest surfaces are what a file without this line holds.
     if stored != Stored::First {
@@ -106,10 +106,10 @@ fn parse(lines: &str) -> Result<Description, Fault> {
     let sides = sides.ok_or_else(|| fault("size", &size, "not two whole numbers"))?;
     let view = View::new(matrix, projection, one("near")?, one("far")?, sides)
         .map_err(|error| fault("view", "unusable", &error.to_string()))?;
-    let cone = line("cone").map(|cone| numbers::<1>("cone", &cone)).transpose()?.map(|[tan_half]| tan_half);
+    let cone = line("cone_cos").map(|cone| numbers::<1>("cone_cos", &cone)).transpose()?.map(|[cos_half]| cos_half);
     let view = view.with_kind(kind(&need("kind")?)?).with_sampling(sampling(&need("sampling")?)?);
     let view = view.with_rules(rules(&need("rules")?)?);
-    let view = view.with_cone(cone).map_err(|error| fault("cone", &format!("{cone:?}"), &error.to_string()))?;
+    let view = view.with_cone(cone).map_err(|error| fault("cone_cos", &format!("{cone:?}"), &error.to_string()))?;
     let digest = need("digest")?;
     let number = u64::from_str_radix(&digest, 16).map_err(|error| fault("digest", &digest, &error.to_string()))?;
     let stored = line("stored").map_or(Ok(Stored::First), |name| {

@@ -182,7 +182,7 @@ fn texts_that_lie() {
         ("rules", "dark", "not five of"),
         ("digest", "g", "invalid digit"),
         ("digest", "0123456789", "not what was written"),
-        ("cone", "-", "not positive and finite"),
+        ("cone_cos", "-", "not within [0, 1)"),
     ] {
         let fault = patched(line(name), with.as_bytes()).expect_err(expected);
         assert!(fault.field.starts_with("comments: "), "{fault}");

@@ -1,5 +1,6 @@
 //! Files in and out of `umbrage-io`.
 
+mod cube;
 mod deep_hostile;
 mod deep_maps;
 mod far;
@@ -28,7 +29,7 @@ fn folder(test: &str) -> PathBuf {
 fn spot(size: UVec2) -> View {
     let (eye, target) = (DVec3::new(-70.1, 25.3, 70.7), DVec3::new(0.1, 0.2, 12.0));
     let view = View::perspective(eye, target, DVec3::Y, 50f64.to_radians(), 20.1, 220.3, size).expect("valid");
-    view.with_rules(Rules::SPOT).with_cone(Some(25f64.to_radians().tan())).unwrap()
+    view.with_rules(Rules::SPOT).with_cone(Some(25f64.to_radians().cos())).unwrap()
 }
 
 fn sun(size: UVec2) -> View {

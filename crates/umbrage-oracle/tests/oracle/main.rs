@@ -4,6 +4,7 @@ mod bodies;
 mod diagnose;
 mod faults;
 mod metrics;
+mod predict;
 mod rays;
 mod silhouette;
 mod transparent;

@@ -81,7 +81,7 @@ fn d16_penumbra_of_the_sky() {
 fn c10_a_spot_is_dark_outside_its_cone() {
     let geometry = Geometry::from_faces(floor(50.0, 0).to_vec(), vec![SOLID]);
     let at = |x: f32, y: f32| SurfacePoint::at(Vec3::new(x, y, 0.0), Vec3::Y);
-    let spot = RayCast::new(&geometry, &lamp(Rules::SPOT).with_cone(Some(0.4)).unwrap());
+    let spot = RayCast::new(&geometry, &lamp(Rules::SPOT).with_cone(Some(0.4_f64.atan().cos())).unwrap());
     assert_eq!(spot.at(&at(3.9, 0.0)), 0.0);
     assert_eq!(spot.at(&at(4.1, 0.0)), 1.0, "outside the cone");
     assert_eq!(spot.at(&at(20.0, 0.0)), 1.0, "outside the map");

@@ -9,16 +9,45 @@ use umbrage_plane::{Facing, TexelRect};
 const NEAR: f64 = 0.5;
 const SIZE: UVec2 = UVec2::new(43, 29);
 
-/// What four rays around a texel position say: all meet one of the triangles in front of the limit, none does, or they disagree.
+/// What the beam of light between four rays around a texel position says: all four meet one of the triangles in front of
+/// the limit, the whole beam meets none, or neither is sure.
 fn surely(camera: &Camera, texel: DVec2, triangles: &[[Vec3; 3]]) -> Option<bool> {
-    let hits = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)].map(|(x, y)| {
-        let ray = camera.ray(texel + DVec2::new(x, y) / 128.0);
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let rays = corners.map(|(x, y)| camera.ray(texel + DVec2::new(x, y) / 128.0));
+    let hit = rays.iter().all(|ray| {
         triangles.iter().any(|corners| {
-            let (zeta, parts) = meet(ray, *corners);
+            let (zeta, parts) = meet(*ray, *corners);
             zeta > NEAR / 1000.0 && parts.iter().all(|part| *part >= -1e-12)
         })
     });
-    hits.iter().all(|hit| *hit == hits[0]).then_some(hits[0])
+    // A sliver may pass between the rays: only a beam without any of it is empty.
+    let empty = || triangles.iter().all(|corners| within(camera, &rays, *corners).is_empty());
+    if hit { Some(true) } else { empty().then_some(false) }
+}
+
+/// The part of a triangle between four rays from the camera's eye and beyond the limit, as a polygon.
+fn within(camera: &Camera, rays: &[(DVec3, DVec3); 4], corners: [Vec3; 3]) -> Vec<DVec3> {
+    let middle: DVec3 = rays.iter().map(|ray| ray.1).sum();
+    let sides = [0, 1, 2, 3].map(|index| {
+        let normal = rays[index].1.cross(rays[(index + 1) % 4].1);
+        (normal * normal.dot(middle).signum(), 0.0)
+    });
+    let mut polygon: Vec<DVec3> = corners.iter().map(|corner| corner.as_dvec3() - camera.eye).collect();
+    for (normal, least) in sides.into_iter().chain([(camera.forward, NEAR / 1000.0)]) {
+        let height = |at: DVec3| normal.dot(at) - least;
+        let mut kept = Vec::new();
+        for (index, &to) in polygon.iter().enumerate() {
+            let from = polygon[(index + polygon.len() - 1) % polygon.len()];
+            if (height(from) >= 0.0) != (height(to) >= 0.0) {
+                kept.push(from.lerp(to, height(from) / (height(from) - height(to))));
+            }
+            if height(to) >= 0.0 {
+                kept.push(to);
+            }
+        }
+        polygon = kept;
+    }
+    polygon
 }
 
 proptest! {

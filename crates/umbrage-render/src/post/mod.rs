@@ -8,7 +8,7 @@ pub use edges::dequantise_edges;
 
 use glam::{DVec2, DVec3, UVec2, Vec3};
 use umbrage_depth::{DepthMap, quantum};
-use umbrage_plane::{Footprint, Kind, Projection, Receiver, SurfacePoint, TexelRect, Verdict, View, Where};
+use umbrage_plane::{Footprint, Kind, Place, Projection, Receiver, SurfacePoint, TexelRect, Verdict, View};
 use umbrage_sample::Key;
 use umbrage_shadow::williams::{observer_to_light, transform};
 use umbrage_shadow::{Shadow, ShadowMap, Williams};
@@ -52,7 +52,7 @@ pub fn shadow_image<M: DepthMap>(
         let region = pixel.y * size.x + pixel.x;
         match transform(&matrix, screen) {
             Some(at) => test(light, at, key.region(region)),
-            None => f32::from(u8::from(light.map.view().rules().verdict(Where::Behind) == Verdict::Shadowed)),
+            None => f32::from(u8::from(light.map.view().rules().verdict(Place::Behind) == Verdict::Shadowed)),
         }
     };
     let shadow =

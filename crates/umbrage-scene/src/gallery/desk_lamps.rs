@@ -93,8 +93,8 @@ fn spot(name: &str, lamp: &Lamp, size: u32) -> Light {
     let mut light = Light::spot(name, lamp.filament, ahead, MAP_DEG, 1.0, 400.0, UVec2::splat(size))
         .expect("a constant view is valid");
     // Beyond its map all that receives is dark; what does not, the lining, is lit as far as the cone goes.
-    let tan_half = (0.5 * CONE_DEG.to_radians()).tan();
-    light.view = light.view.with_cone(Some(tan_half)).expect("a constant view is valid");
+    let cos_half = (0.5 * CONE_DEG.to_radians()).cos();
+    light.view = light.view.with_cone(Some(cos_half)).expect("a constant view is valid");
     light
 }
 

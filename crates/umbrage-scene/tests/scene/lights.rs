@@ -1,5 +1,5 @@
 use glam::{DVec2, DVec3, UVec2, Vec3};
-use umbrage_plane::{Rules, SurfacePoint, Verdict, ViewError, Where};
+use umbrage_plane::{Place, Rules, SurfacePoint, Verdict, ViewError};
 use umbrage_scene::{Light, gallery};
 
 const SIZE: UVec2 = UVec2::splat(64);
@@ -18,7 +18,7 @@ fn sun() -> Light {
 }
 
 /// The place of a world point as the light's own answers name it.
-fn place(light: &Light, x: f32, y: f32, z: f32) -> Where {
+fn place(light: &Light, x: f32, y: f32, z: f32) -> Place {
     let view = light.view;
     match view.receiver(&SurfacePoint::at(Vec3::new(x, y, z), Vec3::Y)) {
         Err(place) => place,
@@ -32,16 +32,16 @@ fn verdict(light: &Light, x: f32, y: f32, z: f32) -> Verdict {
 
 #[test]
 fn c_10_behind_the_light() {
-    assert_eq!(place(&spot(), 0.5, 11.0, 0.0), Where::Behind);
+    assert_eq!(place(&spot(), 0.5, 11.0, 0.0), Place::Behind);
     assert_eq!(verdict(&spot(), 0.5, 11.0, 0.0), Verdict::Shadowed);
     assert_eq!(verdict(&point(), 0.5, 11.0, 0.0), Verdict::Lit);
-    assert_eq!(place(&sun(), 0.5, 500.0, 0.0), Where::Inside, "nothing is behind a light at infinity");
+    assert_eq!(place(&sun(), 0.5, 500.0, 0.0), Place::Inside, "nothing is behind a light at infinity");
 }
 
 #[test]
 fn c_10_outside_the_map() {
     for light in [spot(), point(), sun()] {
-        assert_eq!(place(&light, 10.5, 0.0, 0.0), Where::Outside);
+        assert_eq!(place(&light, 10.5, 0.0, 0.0), Place::Outside);
     }
     assert_eq!(verdict(&spot(), 10.5, 0.0, 0.0), Verdict::Shadowed);
     assert_eq!(verdict(&point(), 10.5, 0.0, 0.0), Verdict::Lit);
@@ -50,10 +50,10 @@ fn c_10_outside_the_map() {
 
 #[test]
 fn c_10_in_the_map_outside_the_cone() {
-    assert_eq!(place(&spot(), 9.0, 0.0, 9.0), Where::BeyondCone);
+    assert_eq!(place(&spot(), 9.0, 0.0, 9.0), Place::BeyondCone);
     assert_eq!(verdict(&spot(), 9.0, 0.0, 9.0), Verdict::Shadowed);
     assert_eq!(verdict(&point(), 9.0, 0.0, 9.0), Verdict::Compare);
-    assert_eq!(place(&sun(), 7.9, 0.0, 7.9), Where::Inside);
+    assert_eq!(place(&sun(), 7.9, 0.0, 7.9), Place::Inside);
 }
 
 #[test]
@@ -72,18 +72,18 @@ fn c_10_nearer_than_near_and_beyond_far_are_compared_but_for_the_strict_volume()
     }
     let mut strict = point();
     strict.view = strict.view.with_rules(Rules::VOLUME);
-    assert_eq!(place(&strict, 0.1, 9.5, 0.1), Where::Near);
-    assert_eq!(place(&strict, 0.1, -30.0, 0.1), Where::Far);
+    assert_eq!(place(&strict, 0.1, 9.5, 0.1), Place::Near);
+    assert_eq!(place(&strict, 0.1, -30.0, 0.1), Place::Far);
     assert_eq!(verdict(&strict, 0.1, 9.5, 0.1), Verdict::Lit);
     assert_eq!(verdict(&strict, 0.1, -30.0, 0.1), Verdict::Lit);
 }
 
 #[test]
 fn a_spot_cone_touches_the_sides_of_its_map() {
-    assert_eq!(spot().view.cone().map(|tan| (tan * 1e9).round()), Some(1e9));
+    assert_eq!(spot().view.cone().map(|cos| (cos * cos * 1e9).round()), Some(0.5e9));
     let share = (0..64 * 64).filter(|index| {
         let texel = glam::Vec2::new((index % 64) as f32, (index / 64) as f32) + 0.5;
-        spot().view.locate(texel) == Where::Inside
+        spot().view.locate(texel) == Place::Inside
     });
     let share = share.count() as f64 / 4096.0;
     assert!((share - std::f64::consts::FRAC_PI_4).abs() < 0.01, "{share}");

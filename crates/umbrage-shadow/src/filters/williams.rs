@@ -11,7 +11,7 @@ use crate::{Filter, Probe, Query, Surfaces};
 use fearless_simd::Simd;
 use glam::{DMat4, DVec3, DVec4, IVec2, Vec2};
 use umbrage_depth::DepthMap;
-use umbrage_plane::{Bias, Kind, Receiver, View, Where};
+use umbrage_plane::{Bias, Kind, Place, Receiver, View};
 use umbrage_sample::Key;
 
 /// How the light's depth at a point is taken from the texels around it.
@@ -133,7 +133,7 @@ impl Filter for Williams {
             compared += Dither::draw(self.dither.law, key, 2) * self.dither.depth;
         }
         match self.lookup {
-            Lookup::Bilinear(guard) if view.locate(at) != Where::Outside => {
+            Lookup::Bilinear(guard) if view.locate(at) != Place::Outside => {
                 let dark = compared > bilinear(query.map(), at, guard, receiver);
                 let (texels, fraction) = four(view, at);
                 let surfaces = texels.map(|texel| query.texel(texel));

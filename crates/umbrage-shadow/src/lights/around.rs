@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 use glam::{DVec2, DVec3, IVec2, Vec3};
 use std::borrow::Cow;
 use umbrage_depth::{DepthMap, Step, Translucent};
-use umbrage_plane::{DepthRange, Kind, SurfacePoint, TexelRect, View, Where, vectorized};
+use umbrage_plane::{DepthRange, Kind, Place, SurfacePoint, TexelRect, View, vectorized};
 use umbrage_sample::Key;
 
 /// Which of the views around a light a point is tested in (Williams 1978; W78-10).
@@ -114,7 +114,7 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
     #[inline(always)]
     fn within<S: Simd>(&self, simd: S, map: &M, channel: Channel, point: &SurfacePoint, key: Key) -> f32 {
         match map.view().receiver(point) {
-            Ok(receiver) if map.view().locate(receiver.footprint.centre) == Where::Inside => {
+            Ok(receiver) if map.view().locate(receiver.footprint.centre) == Place::Inside => {
                 Query::new(simd, map, &receiver, key, &mut ()).of_channel(channel).ask(&self.filter)
             }
             _ => 0.0,

@@ -5,7 +5,7 @@ use crate::{Filter, Probe, Query};
 use fearless_simd::Simd;
 use glam::Vec3;
 use umbrage_depth::{DepthMap, Translucent};
-use umbrage_plane::{Receiver, SurfacePoint, Where, vectorized};
+use umbrage_plane::{Place, Receiver, SurfacePoint, vectorized};
 use umbrage_sample::Key;
 
 /// Points that are brought into the light's space together: enough for a call to cost nothing, few enough to stay in the cache.
@@ -65,7 +65,7 @@ fn batch<S: Simd, F: Filter, M: DepthMap, P: Probe>(
 ) {
     let (filter, map) = (&shadow.filter, &shadow.map);
     let view = map.view();
-    let mut seen = [Err(Where::Behind); TOGETHER];
+    let mut seen = [Err(Place::Behind); TOGETHER];
     for (points, fractions) in at.chunks(TOGETHER).zip(out.chunks_mut(TOGETHER)) {
         let seen = &mut seen[..points.len()];
         view.receivers(points, seen);

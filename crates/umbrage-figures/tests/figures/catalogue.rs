@@ -1,0 +1,24 @@
+//! The catalogue's ids.
+
+use umbrage_figures::catalogue::{choose, figures};
+
+#[test]
+fn ids_of_the_catalogue_are_unique_and_fit_for_folders() {
+    let mut ids: Vec<&str> = figures().map(|figure| figure.id).collect();
+    assert!(ids.iter().all(|id| id.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'-')), "{ids:?}");
+    ids.sort_unstable();
+    assert!(ids.windows(2).all(|pair| !pair[0].eq_ignore_ascii_case(pair[1])), "{ids:?}");
+    let papers: Vec<_> = figures().map(|figure| figure.paper).collect();
+    assert!(papers.is_sorted(), "papers follow one another");
+}
+
+#[test]
+fn figures_are_chosen_by_id_in_the_order_of_the_catalogue() {
+    let ids = |only: &[&str]| {
+        let only: Vec<String> = only.iter().map(ToString::to_string).collect();
+        choose(&only).map(|chosen| chosen.iter().map(|figure| figure.id).collect::<Vec<_>>())
+    };
+    assert_eq!(ids(&[]).unwrap().len(), figures().count());
+    assert_eq!(ids(&["r87-f7", "W78-F1"]).unwrap(), ["W78-F1", "R87-F7"]);
+    assert_eq!(ids(&["W78-F1", "R87-F77"]).unwrap_err(), "R87-F77");
+}

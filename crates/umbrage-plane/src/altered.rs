@@ -1,0 +1,114 @@
+//! A view with one thing changed.
+
+use crate::{Kind, Projection, Rules, Sampling, TexelRect, View, ViewError};
+use glam::{DVec2, DVec3, UVec2};
+
+impl View {
+    /// The same view whose map stores another kind of depth.
+    #[must_use]
+    pub fn with_kind(mut self, kind: Kind) -> Self {
+        self.kind = kind;
+        self
+    }
+
+    /// The same view sampled elsewhere inside its texels.
+    #[must_use]
+    pub fn with_sampling(mut self, sampling: Sampling) -> Self {
+        self.sampling = sampling;
+        self
+    }
+
+    /// The same view with other answers outside its map.
+    #[must_use]
+    pub fn with_rules(mut self, rules: Rules) -> Self {
+        self.rules = rules;
+        self
+    }
+
+    /// The same view with a cone of light about its axis: `cos_half` is the cosine of the angle between the axis and the
+    /// cone's side, so that 0 is everything in front of the light. Meaningless, and ignored, in an orthographic view.
+    ///
+    /// # Errors
+    /// [`ViewError::Cone`] unless the cosine is within [0, 1).
+    pub fn with_cone(mut self, cos_half: Option<f64>) -> Result<Self, ViewError> {
+        if let Some(cos_half) = cos_half.filter(|cos_half| !(0.0..1.0).contains(cos_half)) {
+            return Err(ViewError::Cone(cos_half));
+        }
+        self.cone = cos_half;
+        Ok(self)
+    }
+
+    /// The same view with a map of another size over the same field; its texels need not stay square.
+    ///
+    /// # Errors
+    /// [`ViewError::Size`].
+    pub fn with_size(self, size: UVec2) -> Result<Self, ViewError> {
+        Self::new(self.world_to_eye, self.projection, self.near, self.far, size).map(|view| view.alike(&self))
+    }
+
+    /// The same view, moved by `by` world units without turning. What it shows of a world that moves along is the same to
+    /// the roundings of f64: at 10⁶ units from the origin they are about 10⁻¹⁰.
+    ///
+    /// # Errors
+    /// [`ViewError::Placement`] when it ends at a place that is not finite.
+    pub fn moved(self, by: DVec3) -> Result<Self, ViewError> {
+        if by == DVec3::ZERO {
+            return Ok(self);
+        }
+        let mut world_to_eye = self.world_to_eye;
+        world_to_eye.w_axis -= world_to_eye.transform_vector3(by).extend(0.0);
+        Self::new(world_to_eye, self.projection, self.near, self.far, self.size).map(|view| view.alike(&self))
+    }
+
+    /// The same view of a world that is `factor` times as large about its origin: place, near and far plane and the width
+    /// of an orthographic view are multiplied. For powers of two nothing is rounded; depths in world units are then
+    /// `factor` times the old ones, bit for bit.
+    ///
+    /// # Errors
+    /// [`ViewError`], unless `factor` is positive and what it makes of the view is usable.
+    pub fn scaled(self, factor: f64) -> Result<Self, ViewError> {
+        if !(factor.is_finite() && factor > 0.0) {
+            return Err(ViewError::Factor(factor));
+        }
+        let mut world_to_eye = self.world_to_eye;
+        world_to_eye.w_axis = (world_to_eye.w_axis.truncate() * factor).extend(1.0);
+        let projection = match self.projection {
+            Projection::Perspective { .. } => self.projection,
+            Projection::Orthographic { half, shift } => Projection::Orthographic { half: half * factor, shift },
+        };
+        let (near, far) = (self.near * factor, self.far * factor);
+        Self::new(world_to_eye, projection, near, far, self.size).map(|view| view.alike(&self))
+    }
+
+    /// The part of the same view that a rectangle of its texels shows, with those texels as its map: what was at a texel
+    /// position is now there minus `texels.min`. The rectangle may reach beyond the map, which widens the view.
+    ///
+    /// Everything is the same to the roundings of f64, so that a depth rounded to f32 rarely differs (in fewer than one texel of a thousand), and then by a few steps. Two
+    /// things belong to a map and not to a view: footprints are capped at a quarter of the map, which is now smaller, and a
+    /// jittered sampling draws its places by the texel's column and row, which are now others.
+    ///
+    /// # Errors
+    /// [`ViewError::Size`] for a rectangle that is empty or more than 32,768 texels wide or high.
+    pub fn window(self, texels: TexelRect) -> Result<Self, ViewError> {
+        let (whole, low) = (self.size.as_dvec2(), texels.min.as_dvec2());
+        let part = (texels.max.as_dvec2() - low).max(DVec2::ZERO);
+        let size = part.as_uvec2();
+        ViewError::of_size(size)?;
+        let ratio = whole / part;
+        // x_n of the part is linear in x_n of the whole: both ends of the part are at ±1.
+        let middle = (whole - 2.0 * low - part) / part;
+        let shifted = |shift: DVec2| shift * ratio + middle * DVec2::new(1.0, -1.0);
+        let projection = match self.projection {
+            Projection::Perspective { k, shift } => Projection::Perspective { k: k * ratio, shift: shifted(shift) },
+            Projection::Orthographic { half, shift } => {
+                Projection::Orthographic { half: half / ratio, shift: shifted(shift) }
+            }
+        };
+        Self::new(self.world_to_eye, projection, self.near, self.far, size).map(|view| view.alike(&self))
+    }
+
+    /// With everything of another view that [`View::new`] does not ask for.
+    fn alike(self, other: &Self) -> Self {
+        Self { kind: other.kind, sampling: other.sampling, rules: other.rules, cone: other.cone, ..self }
+    }
+}
