@@ -130,7 +130,8 @@ fn radial(cx: &Context, light: &Light, shadow: &dyn Shadow, angle: f64) -> Vec<(
     let texel = light.view.texel_world(60.0).x;
     let key = Key::new(cx.seed, 0, 0);
     let at_step = |step: i32| {
-        let from_rim = f64::from(step) * 0.5;
+        // Half a step off: on the rim itself a rounding decides whether light arrives.
+        let from_rim = f64::from(step) * 0.5 + 0.25;
         let fan = -40..=40;
         let count = f64::from(fan.clone().count() as u32);
         let sum: f64 = fan
