@@ -1,10 +1,12 @@
+use crate::ray::Ray;
+use crate::triangle::Triangle;
 use glam::{DVec3, Vec3};
+use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::builder::build_bvh2;
 use obvhs::bvh2::{Bvh2, node::Bvh2Node};
-use obvhs::{BvhBuildParams, INVALID};
 use std::time::Duration;
-use umbrage_plane::View;
+use umbrage_plane::{SurfacePoint, View};
 use umbrage_scene::Scene;
 
 /// A triangle.
@@ -47,33 +49,49 @@ pub struct Hit {
 /// Positions are the f32 numbers of the scene, relative to its origin; everything after them is f64, and points and directions
 /// that are asked about are of world space. No ray slips between triangles
 /// that share an edge or a vertex (Woop, Benthin & Wald 2013); a ray through the edge itself meets both.
+///
+/// Where a ray begins or ends on a surface, that surface is left out because it holds the point, not because it is near: what
+/// counts as *holding* is the rounding of f64, some 10⁻¹² of the point's coordinates about the origin and of the face's size, so
+/// that neither a scene's place in the world nor its extent changes what is in shadow.
 pub struct Geometry {
     origin: DVec3,
     faces: Vec<Face>,
-    planes: Vec<Plane>,
+    triangles: Vec<Triangle>,
     bodies: Vec<Body>,
     tree: Bvh2,
-    extent: f64,
 }
 
-/// A face in f64, relative to the geometry's origin, with its unit normal.
+/// A place that faces may hold: where a ray begins or ends.
 #[derive(Clone, Copy)]
-struct Plane {
-    corners: [DVec3; 3],
-    normal: DVec3,
+pub(crate) struct Place {
+    /// Relative to the geometry's origin.
+    pub at: DVec3,
+    /// How far it may lie off a surface that it was computed on in f64, world units, but for what the face's own size adds.
+    rounding: f64,
 }
 
-/// A ray whose boxes are cheap to test. Relative to the geometry's origin.
-#[derive(Clone, Copy)]
-struct Ray {
-    origin: DVec3,
-    direction: DVec3,
-    inverse: [f64; 3],
-    /// The axis along which it goes most, and the two others.
-    axes: [usize; 3],
-    /// How far it moves along the two others per unit of the first.
-    shear: [f64; 2],
+impl Place {
+    /// Moved by its rounding, which [`Geometry::holds`] allows for: what lies in the plane of a facet that is edge-on to the light
+    /// is then on the side of it that is asked about.
+    pub(crate) fn lifted(self, normal: DVec3) -> Self {
+        Self { at: self.at + normal * self.rounding, ..self }
+    }
 }
+
+/// A facet near a place.
+struct Near {
+    face: u32,
+    /// Its point nearest to the place, relative to the geometry's origin, and how far that is.
+    at: DVec3,
+    distance: f64,
+}
+
+/// What f64 arithmetic leaves between a point and the surface that it was computed on, as a fraction of coordinates and sizes:
+/// room for a point that a camera sees from a thousand times as far away.
+const EXACT: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// The same for points and corners that were rounded to f32: half a unit in the last place of each of three coordinates.
+const ROUNDED: f64 = 1.0 / (1u64 << 23) as f64;
 
 impl Geometry {
     /// All objects of a scene, casters or not. Patches are diced as they are for `dice_for`: give the camera's view to
@@ -106,17 +124,8 @@ impl Geometry {
         } else {
             build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Duration::default())
         };
-        let planes = faces
-            .iter()
-            .map(|face| {
-                let corners = face.corners.map(Vec3::as_dvec3);
-                let [a, b, c] = corners;
-                Plane { corners, normal: (b - a).cross(c - a).normalize_or_zero() }
-            })
-            .collect();
-        let extent = faces.iter().flat_map(|face| face.corners).map(|at| f64::from(at.abs().max_element()));
-        let extent = extent.fold(0.0, f64::max);
-        Self { origin: DVec3::ZERO, faces, planes, bodies, tree, extent }
+        let triangles = faces.iter().map(|face| Triangle::new(face.corners)).collect();
+        Self { origin: DVec3::ZERO, faces, triangles, bodies, tree }
     }
 
     /// The world-space point that the faces are relative to: the scene's.
@@ -139,63 +148,110 @@ impl Geometry {
         self.bodies.iter().all(|body| body.passes == Vec3::ZERO)
     }
 
-    /// How far a world-space point that was rounded to f32 about the origin may lie off the surface it came from, world units,
-    /// with room to spare: eight half-ulps of its largest coordinate there.
-    pub fn margin(&self, at: DVec3) -> f64 {
-        const EIGHT_HALF_ULPS: f64 = 1.0 / 2_097_152.0;
-        ((at - self.origin).abs().max_element() * EIGHT_HALF_ULPS).max(self.extent * (EIGHT_HALF_ULPS / 512.0))
+    /// A world-space point as it is given.
+    pub(crate) fn place(&self, world: DVec3) -> Place {
+        let at = world - self.origin;
+        let rounding = EXACT * at.abs().max_element() + 4.0 * f64::EPSILON * world.abs().max_element();
+        Place { at, rounding }
     }
 
-    /// True when a surface lies between `from` and `to`, both excluded. Surfaces through `from` do not count: those
-    /// whose plane passes within [`Geometry::margin`] of it.
+    /// A point moved onto its own facet when it lies off it by no more than the rounding of f32 of its coordinates about the
+    /// origin and of the facet's size. So are points that came from f32, and those that a picture takes beside an edge on the
+    /// plane of the next facet. A point that is farther off every facet of its object stays where it is.
+    ///
+    /// Of the facets within that reach its own is the one with its normal, and the nearest of several such.
+    pub(crate) fn settled(&self, point: &SurfacePoint) -> Place {
+        let place = self.place(point.position);
+        let mut facets = Vec::new();
+        if let Some(root) = self.tree.nodes.first() {
+            self.facets_about(root, place.at, point.object, &mut facets);
+        }
+        let turned = |facet: &Near| self.triangles[facet.face as usize].normal.cross(point.normal.as_dvec3()).length();
+        let least = facets.iter().map(turned).fold(f64::INFINITY, f64::min);
+        // Normals are f32 numbers.
+        let own = facets.iter().filter(|facet| turned(facet) <= least + 1e-6);
+        match own.min_by(|a, b| a.distance.total_cmp(&b.distance)) {
+            Some(own) if own.distance > place.rounding => Place { at: own.at, ..place },
+            _ => place,
+        }
+    }
+
+    /// The facets of an object that are near enough to a place for [`Geometry::settled`].
+    fn facets_about(&self, node: &Bvh2Node, place: DVec3, object: u32, found: &mut Vec<Near>) {
+        let about = place.abs().max_element();
+        let (low, high) = (node.aabb().min.as_dvec3(), node.aabb().max.as_dvec3());
+        if (low - place).max(place - high).max_element() > ROUNDED * (about + (high - low).max_element()) {
+            return;
+        }
+        let first = node.first_index as usize;
+        if !node.is_leaf() {
+            for child in [first, first + 1] {
+                self.facets_about(&self.tree.nodes[child], place, object, found);
+            }
+            return;
+        }
+        for &face in &self.tree.primitive_indices[first..first + node.prim_count as usize] {
+            let triangle = &self.triangles[face as usize];
+            if self.faces[face as usize].object == object && triangle.normal != DVec3::ZERO {
+                let at = triangle.nearest(place);
+                let distance = at.distance(place);
+                if distance <= ROUNDED * (about + triangle.size()) {
+                    found.push(Near { face, at, distance });
+                }
+            }
+        }
+    }
+
+    /// True when a place lies on a face, border included.
+    pub(crate) fn holds(&self, face: u32, place: &Place) -> bool {
+        let triangle = &self.triangles[face as usize];
+        triangle.nearest(place.at).distance(place.at) <= 2.0 * (place.rounding + EXACT * triangle.size())
+    }
+
+    /// True when a surface lies between `from` and `to`. Faces that hold either of them do not count.
     pub fn occluded(&self, from: DVec3, to: DVec3) -> bool {
-        let way = to - from;
-        self.blocked(from, way, way.length(), |off_plane, _, _| off_plane > self.margin(from))
+        let [from, to] = [from, to].map(|end| self.place(end));
+        let way = to.at - from.at;
+        self.blocked(&from, way, way.length(), |face, _| !self.holds(face, &to))
     }
 
-    /// True when a surface lies in a direction, at any distance. Surfaces through `from` do not count, as above.
+    /// True when a surface lies in a direction, at any distance. Faces that hold `from` do not count.
     pub fn occluded_toward(&self, from: DVec3, direction: DVec3) -> bool {
-        self.blocked(from, direction, f64::INFINITY, |off_plane, _, _| off_plane > self.margin(from))
+        self.blocked(&self.place(from), direction, f64::INFINITY, |_, _| true)
     }
 
-    /// True when a hit nearer than `reach` world units `counts`: it is given how far the origin is off the face's
-    /// plane, the face, and the distance along the ray.
+    /// True when a hit nearer than `reach` world units, on a face that does not hold the ray's beginning, `counts`: it is
+    /// given the face and the distance along the ray.
     pub(crate) fn blocked(
         &self,
-        from: DVec3,
+        from: &Place,
         direction: DVec3,
         reach: f64,
-        mut counts: impl FnMut(f64, &Face, f64) -> bool,
+        counts: impl Fn(u32, f64) -> bool,
     ) -> bool {
         let Some(direction) = direction.try_normalize() else { return false };
         let mut found = false;
-        self.walk(&Ray::new(from - self.origin, direction), reach, &mut |face, t| {
-            let off_plane = t * self.planes[face as usize].normal.dot(direction).abs();
-            found = t < reach && counts(off_plane, &self.faces[face as usize], t);
+        self.walk(&Ray::new(from.at, direction), reach, &mut |face, t| {
+            found = t < reach && counts(face, t) && !self.holds(face, from);
             if found { None } else { Some(reach) }
         });
         found
     }
 
-    /// What passes of the light along a ray, the product over the surfaces that `count`, nearer than `reach` world units.
+    /// What passes of the light along a ray, the product over the surfaces that `count`, as [`Geometry::blocked`] has it.
     ///
     /// A ray through a shared edge meets both its faces but crosses one surface: faces of an object that are met from the
-    /// same side within [`Geometry::margin`] of each other count once.
-    pub(crate) fn passed(
-        &self,
-        from: DVec3,
-        direction: DVec3,
-        reach: f64,
-        counts: impl Fn(&Face, f64) -> bool,
-    ) -> Vec3 {
+    /// same side at one distance count once.
+    pub(crate) fn passed(&self, from: &Place, direction: DVec3, reach: f64, counts: impl Fn(u32, f64) -> bool) -> Vec3 {
         let Some(direction) = direction.try_normalize() else { return Vec3::ONE };
         let mut passes = Vec3::ONE;
         let mut crossed: Vec<(u32, bool, f64)> = Vec::new();
-        self.walk(&Ray::new(from - self.origin, direction), reach, &mut |index, t| {
-            let face = &self.faces[index as usize];
-            if t < reach && counts(face, t) {
-                let outside = self.planes[index as usize].normal.dot(direction) < 0.0;
-                let slack = self.margin(from + direction * t);
+        self.walk(&Ray::new(from.at, direction), reach, &mut |index, t| {
+            if t < reach && counts(index, t) && !self.holds(index, from) {
+                let (face, triangle) = (&self.faces[index as usize], &self.triangles[index as usize]);
+                let outside = triangle.normal.dot(direction) < 0.0;
+                // Both planes are met with the rounding of f64, which a grazing ray stretches.
+                let slack = 16.0 * EXACT * (t + triangle.size());
                 let again = |&(object, side, at): &(u32, bool, f64)| {
                     object == face.object && side == outside && (at - t).abs() <= slack
                 };
@@ -212,13 +268,23 @@ impl Geometry {
     /// The nearest surface in a direction (need not be unit), both sides seen; at equal distances the face with the
     /// lower index. `None` for a direction of length 0.
     pub fn first_hit(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+        self.nearest(origin, direction, |_| true)
+    }
+
+    /// The same from a point on a surface: faces that hold it do not count.
+    pub(crate) fn next_hit(&self, from: DVec3, direction: DVec3) -> Option<Hit> {
+        let place = self.place(from);
+        self.nearest(from, direction, |face| !self.holds(face, &place))
+    }
+
+    fn nearest(&self, origin: DVec3, direction: DVec3, counts: impl Fn(u32) -> bool) -> Option<Hit> {
         let direction = direction.try_normalize()?;
         let mut best: Option<(f64, u32)> = None;
         self.walk(&Ray::new(origin - self.origin, direction), f64::INFINITY, &mut |face, t| {
-            if best.is_none_or(|(known, index)| t < known || (t == known && face < index)) {
+            if best.is_none_or(|(known, index)| t < known || (t == known && face < index)) && counts(face) {
                 best = Some((t, face));
             }
-            best.map(|(t, _)| t)
+            Some(best.map_or(f64::INFINITY, |(t, _)| t))
         });
         best.map(|(t, face)| self.hit(origin, direction, t, face))
     }
@@ -241,103 +307,11 @@ impl Geometry {
             face,
             object: self.faces[face as usize].object,
             position: origin + direction * t,
-            normal: self.planes[face as usize].normal,
+            normal: self.triangles[face as usize].normal,
         }
     }
 
-    /// Tells `visit` each face that the ray meets at 0 < t, and takes from it how far still to look; `None` ends it.
-    fn walk(&self, ray: &Ray, mut reach: f64, visit: &mut impl FnMut(u32, f64) -> Option<f64>) {
-        if let Some(root) = self.tree.nodes.first()
-            && ray.enters(root).is_some()
-        {
-            self.descend(root, ray, &mut reach, visit);
-        }
-    }
-
-    /// False when the walk has ended.
-    fn descend(
-        &self,
-        node: &Bvh2Node,
-        ray: &Ray,
-        reach: &mut f64,
-        visit: &mut impl FnMut(u32, f64) -> Option<f64>,
-    ) -> bool {
-        let first = node.first_index as usize;
-        if node.is_leaf() {
-            for &face in &self.tree.primitive_indices[first..first + node.prim_count as usize] {
-                debug_assert_ne!(face, INVALID, "a tree built once has no vacant slots");
-                if let Some(t) = ray.meets(&self.planes[face as usize])
-                    && t <= *reach
-                {
-                    match visit(face, t) {
-                        Some(further) => *reach = further,
-                        None => return false,
-                    }
-                }
-            }
-            return true;
-        }
-        let [mut near, mut far] = [first, first + 1].map(|child| {
-            let child = &self.tree.nodes[child];
-            (ray.enters(child), child)
-        });
-        if near.0.is_none() || far.0.is_some_and(|far| near.0.is_some_and(|near| far < near)) {
-            std::mem::swap(&mut near, &mut far);
-        }
-        [near, far]
-            .into_iter()
-            .all(|(entry, child)| entry.is_none_or(|entry| entry > *reach) || self.descend(child, ray, reach, visit))
-    }
-}
-
-impl Ray {
-    /// `direction` is a unit vector.
-    fn new(origin: DVec3, direction: DVec3) -> Self {
-        // A huge number instead of 1/0: an origin on a box's side then gives 0, not NaN.
-        let inverse = direction.to_array().map(|d| if d.abs() > 1e-300 { 1.0 / d } else { 1e300 });
-        let along = direction.abs().max_position();
-        let axes = [along, (along + 1) % 3, (along + 2) % 3];
-        let shear = [direction[axes[1]] / direction[along], direction[axes[2]] / direction[along]];
-        Self { origin, direction, inverse, axes, shear }
-    }
-
-    /// The distance at which the ray enters a node's box, ≥ 0; `None` when it misses.
-    #[inline(always)]
-    fn enters(&self, node: &Bvh2Node) -> Option<f64> {
-        // Three roundings on either side: a box that is touched must not be missed.
-        const WIDEN: f64 = 1.0 + 8.0 * f64::EPSILON;
-        let (low, high) = (node.aabb().min.to_array(), node.aabb().max.to_array());
-        let origin = self.origin.to_array();
-        let (mut near, mut far) = (0.0f64, f64::INFINITY);
-        for axis in 0..3 {
-            let a = (f64::from(low[axis]) - origin[axis]) * self.inverse[axis];
-            let b = (f64::from(high[axis]) - origin[axis]) * self.inverse[axis];
-            near = near.max(a.min(b));
-            far = far.min(a.max(b));
-        }
-        (near <= far * WIDEN).then_some(near)
-    }
-
-    /// The distance to a face, > 0, both sides met; `None` when it is missed or edge-on.
-    ///
-    /// Corners are sheared so that the ray is the origin of a plane, then each edge says on which side it passes: the
-    /// difference of two products, whose rounded sign is never wrong, only 0 at times, and 0 counts as met.
-    #[inline(always)]
-    fn meets(&self, plane: &Plane) -> Option<f64> {
-        let [along, across, up] = self.axes;
-        let [a, b, c] = plane.corners.map(|corner| {
-            let from = (corner - self.origin).to_array();
-            (from[across] - self.shear[0] * from[along], from[up] - self.shear[1] * from[along])
-        });
-        let (u, v, w) = (c.0 * b.1 - c.1 * b.0, a.0 * c.1 - a.1 * c.0, b.0 * a.1 - b.1 * a.0);
-        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
-            return None;
-        }
-        let slope = plane.normal.dot(self.direction);
-        if u + v + w == 0.0 || slope == 0.0 {
-            return None;
-        }
-        let t = plane.normal.dot(plane.corners[0] - self.origin) / slope;
-        (t > 0.0).then_some(t)
+    fn walk(&self, ray: &Ray, reach: f64, visit: &mut impl FnMut(u32, f64) -> Option<f64>) {
+        ray.walk(&self.tree, &self.triangles, reach, visit);
     }
 }

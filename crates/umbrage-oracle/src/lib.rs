@@ -29,7 +29,9 @@ mod geometry;
 mod mean;
 pub mod metrics;
 pub mod predict;
+mod ray;
 mod thin;
+mod triangle;
 mod truth;
 
 pub use bias::{BiasCase, BiasSearch, BiasWindow};

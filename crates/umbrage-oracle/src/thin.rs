@@ -35,7 +35,7 @@ pub(crate) fn too_thin(scene: &Scene, object: &Object, light: &Light, plan: &Pla
         if !(wide && facing > 0.0 && slope.length() <= plan.slope && zeta > 0.0) {
             continue;
         }
-        let Some(back) = body.first_hit(middle - normal * body.margin(middle), -toward) else { continue };
+        let Some(back) = body.next_hit(middle, -toward) else { continue };
         let steps = view.texel_world(zeta) * slope;
         let step = acne_free_bias(steps.x, steps.y, plan.filter_half);
         let thickness = back.t * axial;

@@ -1,4 +1,5 @@
-use crate::{Face, Geometry};
+use crate::Geometry;
+use crate::geometry::Place;
 use glam::{DVec2, DVec3, DVec4, Vec3};
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -46,10 +47,11 @@ impl Lamp {
         }
     }
 
-    /// What passes of the light from `light` (homogeneous as [`Lamp::at`]) on its way to `at`.
-    fn passes(&self, geometry: &Geometry, at: &SurfacePoint, light: DVec4) -> Vec3 {
-        let (surface, normal) = (at.position, at.normal.as_dvec3());
-        let way = light.truncate() - surface * light.w;
+    /// What passes of the light from `light` (homogeneous as [`Lamp::at`]) on its way to a point, which `from` is on its surface.
+    fn passes(&self, geometry: &Geometry, at: &SurfacePoint, from: &Place, light: DVec4) -> Vec3 {
+        let lamp = (light.w != 0.0).then(|| geometry.place(light.truncate()));
+        let way = lamp.map_or(light.truncate(), |lamp| lamp.at - from.at);
+        let normal = at.normal.as_dvec3();
         let facing = normal.dot(way);
         let body = geometry.body(at.object);
         let truth = &self.truth;
@@ -57,17 +59,18 @@ impl Lamp {
         if body.solid && opaque && (body.casts || !truth.casters_only) && facing <= 0.0 {
             return Vec3::ZERO;
         }
-        // Off the surface, on the light's side: a rounding below it, a grazing ray would come out through a neighbour.
-        let from = surface + normal * geometry.margin(surface).copysign(facing);
-        let way = light.truncate() - from * light.w;
-        let reach = if light.w == 0.0 { f64::INFINITY } else { way.length() };
-        let counts = |face: &Face, t: f64| {
-            (!truth.casters_only || geometry.body(face.object).casts)
-                && !(face.object == at.object && t <= truth.own_slack)
+        let from = &from.lifted(normal * 1f64.copysign(facing));
+        let way = lamp.map_or(way, |lamp| lamp.at - from.at);
+        let reach = if lamp.is_some() { way.length() } else { f64::INFINITY };
+        let counts = |index: u32, t: f64| {
+            let object = geometry.faces()[index as usize].object;
+            (!truth.casters_only || geometry.body(object).casts)
+                && !(object == at.object && t <= truth.own_slack)
+                && !lamp.is_some_and(|lamp| geometry.holds(index, &lamp))
         };
         if self.opaque {
             // Any surface will do, whichever is found first.
-            let dark = geometry.blocked(from, way, reach, |_, face, t| counts(face, t));
+            let dark = geometry.blocked(from, way, reach, counts);
             return if dark { Vec3::ZERO } else { Vec3::ONE };
         }
         geometry.passed(from, way, reach, counts)
@@ -118,9 +121,10 @@ impl Passed {
 ///   the ray crosses count, the one at the point itself does not.
 /// * Places that the light's [`Rules`](umbrage_plane::Rules) call shadowed are dark, those they call lit are lit (but
 ///   see [`Truth::look_everywhere`]); a ray decides all others, near and far plane regardless.
-/// * The ray starts [`Geometry::margin`] off the surface, on the light's side: enough that no convex surface shadows
-///   itself however grazing the light, and little enough that shadows begin within 1e−6 of the coordinates' size of a
-///   contact.
+/// * The point is on its own object's surface when it lies off it by no more than the rounding of f32; the ray then starts
+///   on the surface itself. Faces that hold the point do not block it: shadows begin at a contact.
+/// * A surface that holds the light blocks none of it, on either side: the light shines from its surface. Maps agree, as
+///   such a surface is edge-on from the light and covers no texel.
 pub struct RayCast<'a> {
     geometry: &'a Geometry,
     lamp: Lamp,
@@ -157,7 +161,10 @@ impl<'a> RayCast<'a> {
     pub fn passes(&self, point: &SurfacePoint) -> Vec3 {
         match self.lamp.verdict(point) {
             Some(known) => Vec3::splat(1.0 - known),
-            None => self.lamp.passes(self.geometry, point, self.lamp.at),
+            None => {
+                let from = self.geometry.settled(point);
+                self.lamp.passes(self.geometry, point, &from, self.lamp.at)
+            }
         }
     }
 }
@@ -260,11 +267,12 @@ impl<'a> AreaLight<'a> {
             (_, true) => lamp.at.truncate(),
             (None, false) => lamp.at.truncate() - point.position,
         };
+        let from = self.ray.geometry.settled(point);
         let (right, up) = axis.normalize_or(DVec3::Z).any_orthonormal_pair();
         Passed::over(self.across, key.region(point.region), |s| {
             let on_disc = to_disc(s) * self.radius;
             let light = lamp.at + (right * on_disc.x + up * on_disc.y).extend(0.0);
-            lamp.passes(self.ray.geometry, point, light)
+            lamp.passes(self.ray.geometry, point, &from, light)
         })
     }
 }

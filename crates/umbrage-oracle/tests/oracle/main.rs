@@ -2,6 +2,7 @@
 mod bias;
 mod bodies;
 mod diagnose;
+mod exact;
 mod faults;
 mod metrics;
 mod predict;
