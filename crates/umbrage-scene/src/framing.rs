@@ -1,8 +1,8 @@
 //! Finding a light's view by itself (spec EXT-9).
 
 use crate::{Light, Scene};
-use glam::{DVec3, UVec2};
-use umbrage_plane::{Projection, View, ViewError};
+use glam::{DVec2, DVec3, UVec2};
+use umbrage_plane::{Projection, Rules, Verdict, View, ViewError, up_for};
 
 /// A ball in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +30,9 @@ pub enum FrameError {
         /// The ball's radius.
         radius: f64,
     },
+    /// The light shines by a cone about its axis, which must not be turned.
+    #[error("a view with a cone of light cannot be turned toward a ball: its light would turn along")]
+    Aimed,
     /// The view that was found is none.
     #[error(transparent)]
     View(#[from] ViewError),
@@ -112,44 +115,139 @@ impl Scene {
         all.filter(|(_, pair)| relevant(pair)).map(|(id, _)| id as u32).collect()
     }
 
-    /// The light with the narrowest view that holds every relevant caster ([`Scene::relevant_casters`]), from its own place: field of
-    /// view, near and far planes are found (EXT-9, V66). Kind, sampling, rules, cone and map size stay.
+    /// The light with the narrowest view that holds every relevant caster ([`Scene::relevant_casters`]), from its own place: what
+    /// the map's sides, near and far planes are is found (EXT-9). Kind, sampling, cone and map size stay; texels need not be square.
+    ///
+    /// What the light lights does not change. A light that shines alike in all directions is turned toward its casters. One
+    /// with a cone or a tree keeps its axis, and its map is the part of the view that holds the casters within its cone;
+    /// beyond that part nothing casts, so that all is lit there as far as the cone goes. A light whose only limit are its map's sides, beyond which all is
+    /// dark ([`Rules::outside`](umbrage_plane::Rules)), keeps them.
     ///
     /// # Errors
     /// [`FrameError`].
     pub fn framed(&self, light: &Light) -> Result<Light, FrameError> {
         let relevant = self.relevant_casters(&light.view);
-        let points = relevant.iter().flat_map(|&id| self.hull(&self.objects[id as usize]));
-        let ball = ball(points).ok_or(FrameError::Nothing)?;
-        Ok(Light { view: fit(&light.view, ball)?, ..light.clone() })
+        let points: Vec<DVec3> = relevant.iter().flat_map(|&id| self.hull(&self.objects[id as usize])).collect();
+        let view = &light.view;
+        let bounded_by_map = view.cone().is_none() && view.rules().outside == Verdict::Shadowed;
+        let aimed = view.cone().is_some() || light.tree.is_some() || bounded_by_map;
+        let found = if aimed || !view.is_perspective() {
+            *view
+        } else {
+            fit(view, Ball::around(&points).ok_or(FrameError::Nothing)?)?
+        };
+        let eye: Vec<DVec3> = points.iter().map(|&at| found.world_to_eye().transform_point3(at)).collect();
+        let mut framed = closed_in(&found, &eye, bounded_by_map)?;
+        if !bounded_by_map && aimed {
+            framed = framed.with_rules(Rules { outside: Verdict::Lit, ..*view.rules() });
+        }
+        Ok(Light { view: framed, ..light.clone() })
     }
+}
+
+/// The part of a view that holds points of its eye space, its near and far planes just before and behind them; with its own sides if
+/// they are to stay.
+fn closed_in(view: &View, points: &[DVec3], keep_sides: bool) -> Result<View, FrameError> {
+    /// How much is added on every side, as a fraction of the width.
+    const MARGIN: f64 = 1.0 / 1024.0;
+    let (low, high) =
+        points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(-at.z), high.max(-at.z)));
+    let (mut near, mut far) = (low - MARGIN * (high - low), high + MARGIN * (high - low));
+    if view.is_perspective() {
+        if high <= 0.0 {
+            return Err(FrameError::Nothing);
+        }
+        near = if low > 0.0 { low * (1.0 - MARGIN) } else { view.near().min(0.5 * high) };
+        far = high * (1.0 + MARGIN);
+    }
+    if near >= far {
+        // All casters are at one distance: a flat sheet that the light looks straight at.
+        (near, far) = (near - MARGIN, far + MARGIN);
+    }
+    if keep_sides {
+        return Ok(alike(View::new(view.world_to_eye(), view.projection(), near, far, view.size())?, view)?);
+    }
+    let (mut least, mut most) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let mut limit = DVec2::INFINITY;
+    if view.is_perspective() {
+        if let Some(cos_half) = view.cone() {
+            limit = DVec2::splat((1.0 - cos_half * cos_half).sqrt() / cos_half);
+        }
+        if low <= 0.0 {
+            // Something reaches behind the light: of its shape nothing is known but that the light sees it on some side.
+            let Projection::Perspective { k, shift } = view.projection() else { return Err(FrameError::Nothing) };
+            let (a, b) = ((-1.0 - shift) / k, (1.0 - shift) / k);
+            (least, most) = if limit.is_finite() { (-limit, limit) } else { (a, b) };
+        } else {
+            for at in points {
+                let tangent = at.truncate() / -at.z;
+                (least, most) = (least.min(tangent), most.max(tangent));
+            }
+        }
+    } else {
+        for at in points {
+            (least, most) = (least.min(at.truncate()), most.max(at.truncate()));
+        }
+    }
+    // A sheet that is edge-on to the light has no width of its own.
+    let extent = most - least;
+    let widen = MARGIN * extent.max(DVec2::splat(MARGIN * extent.max_element()));
+    (least, most) = ((least - widen).max(-limit), (most + widen).min(limit));
+    if !least.cmplt(most).all() {
+        return Err(FrameError::Nothing);
+    }
+    let half = 0.5 * (most - least);
+    let shift = -(most + least) / (most - least);
+    let projection = if view.is_perspective() {
+        Projection::Perspective { k: 1.0 / half, shift }
+    } else {
+        Projection::Orthographic { half, shift }
+    };
+    Ok(alike(View::new(view.world_to_eye(), projection, near, far, view.size())?, view)?)
+}
+
+/// A view with everything of another that its constructor does not take.
+fn alike(view: View, other: &View) -> Result<View, ViewError> {
+    view.with_kind(other.kind()).with_sampling(other.sampling()).with_rules(*other.rules()).with_cone(other.cone())
 }
 
 fn ball(points: impl Iterator<Item = DVec3>) -> Option<Ball> {
     Ball::around(&points.collect::<Vec<_>>())
 }
 
-/// `light` turned toward a ball and closed in around it: full angle 2·asin(R/d), near plane at d − R, far plane at d + R (V66).
+/// `light` turned toward a ball and closed in around it: full angle 2·asin(R/d) over both sides of the map, near plane at d − R, far plane
+/// at d + R (V66). Parallel light keeps its direction.
 ///
 /// # Errors
-/// [`FrameError::Inside`] when a light in perspective stands within the ball; [`FrameError::View`] for a ball without extent.
+/// [`FrameError::Aimed`] for a view with a cone, which would be turned along; [`FrameError::Inside`] when a light in perspective stands within the ball;
+/// [`FrameError::View`] for a ball without extent.
 pub fn fit(light: &View, ball: Ball) -> Result<View, FrameError> {
-    let size: UVec2 = light.size();
-    let up = if light.ahead().y.abs() < 0.999 { DVec3::Y } else { DVec3::Z };
+    // Texels need not be square: the ball touches all sides.
+    let square = UVec2::ONE;
     let found = if light.is_perspective() {
+        if light.cone().is_some() {
+            return Err(FrameError::Aimed);
+        }
         let eye = light.light().truncate();
         let distance = eye.distance(ball.centre);
         if distance <= ball.radius {
             return Err(FrameError::Inside { distance, radius: ball.radius });
         }
-        let toward = (ball.centre - eye).normalize();
-        let up = if toward.y.abs() < 0.999 { DVec3::Y } else { DVec3::Z };
+        let up = up_for(ball.centre - eye);
         let fov = 2.0 * (ball.radius / distance).asin();
-        View::perspective(eye, ball.centre, up, fov, distance - ball.radius, distance + ball.radius, size)?
+        View::perspective(eye, ball.centre, up, fov, distance - ball.radius, distance + ball.radius, square)?
     } else {
         let eye = ball.centre - light.ahead() * (2.0 * ball.radius);
-        View::orthographic(eye, ball.centre, up, ball.radius, ball.radius, 3.0 * ball.radius, size)?
+        View::orthographic(
+            eye,
+            ball.centre,
+            up_for(light.ahead()),
+            ball.radius,
+            ball.radius,
+            3.0 * ball.radius,
+            square,
+        )?
     };
-    let cone = light.cone().filter(|_| light.is_perspective());
-    Ok(found.with_kind(light.kind()).with_sampling(light.sampling()).with_rules(*light.rules()).with_cone(cone)?)
+    let found = found.with_size(light.size())?;
+    Ok(found.with_kind(light.kind()).with_sampling(light.sampling()).with_rules(*light.rules()))
 }
