@@ -17,7 +17,12 @@ fn ask<F: Filter>(filter: &F, map: &Map, receiver: &Receiver, key: Key) -> f32 {
 /// Percentage-closer filtering one tap at a time, without ranges, tiles or lanes.
 fn naive<P: Pattern>(filter: &Pcf<P, Biased>, map: &Raw, receiver: &Receiver, key: Key) -> f32 {
     let view: &View = map.view();
-    let region = receiver.footprint.scaled(filter.res_factor, filter.min_size, view.size().as_vec2() * 0.25);
+    let region = receiver.footprint.scaled(
+        receiver.texel.as_vec2(),
+        filter.res_factor,
+        filter.min_size,
+        view.size().as_vec2() * 0.25,
+    );
     let (low, high) = (receiver.nearer(view, filter.depth.low), receiver.nearer(view, filter.depth.high));
     let (mut hits, mut count) = (0.0f32, 0.0f32);
     each_tap(&filter.pattern, &region, key, |tap| {

@@ -37,23 +37,27 @@ impl Footprint {
         Self { centre: (low + high) * 0.5, half: (high - low) * 0.5, corners }
     }
 
-    /// Enlarged about its centre: half-extents times `factor`, then at least `min_half`, then at most `max_half`
-    /// (Reeves' `ResFactor` and `MinSize`, in that order; R87-12, R87-13). Corners scale alike, axis by axis, so that the box stays the
-    /// bounding box of the quadrilateral and all patterns look at one region: about the box's centre, not the quadrilateral's
+    /// Enlarged about a point of it, the image of what is shaded: half-extents times `factor`, then at least `min_half`, then at most
+    /// `max_half` (Reeves' `ResFactor` and `MinSize`, in that order; R87-12, R87-13). Corners scale alike, axis by axis, so that
+    /// the box stays the bounding box of the quadrilateral and all patterns look at one region, not about the quadrilateral's
     /// centroid (a departure from R87-11 d). Where an axis without extent gets one, the region becomes the box.
+    ///
+    /// In perspective the box's centre shows another place of the surface, at another depth, than the point does: the less of the
+    /// region's own extent is left, the closer the result lies around the point.
     #[inline(always)]
-    pub fn scaled(&self, factor: f32, min_half: f32, max_half: Vec2) -> Self {
-        let half = (self.half * factor).max(Vec2::splat(min_half)).min(max_half.max(Vec2::ZERO));
+    pub fn scaled(&self, about: Vec2, factor: f32, min_half: f32, max_half: Vec2) -> Self {
+        let most = max_half.max(Vec2::ZERO);
+        let grown = (self.half * factor).min(most);
+        let half = grown.max(Vec2::splat(min_half)).min(most);
         let ratio = |new: f32, old: f32| if old > 0.0 { new / old } else { 0.0 };
-        let scale = Vec2::new(ratio(half.x, self.half.x), ratio(half.y, self.half.y));
+        let ratios = |new: Vec2| Vec2::new(ratio(new.x, self.half.x), ratio(new.y, self.half.y));
+        // What is left of the region's own extent decides how far from the point its centre is: exactly where it was for all of it.
+        let centre = self.centre + (self.centre - about) * (ratios(grown) - 1.0);
         if (self.half.x <= 0.0 && half.x > 0.0) || (self.half.y <= 0.0 && half.y > 0.0) {
-            return Self::boxed(self.centre, half);
+            return Self::boxed(centre, half);
         }
-        Self {
-            centre: self.centre,
-            half,
-            corners: self.corners.map(|corner| self.centre + (corner - self.centre) * scale),
-        }
+        let scale = ratios(half);
+        Self { centre, half, corners: self.corners.map(|corner| centre + (corner - self.centre) * scale) }
     }
 
     /// Half-axes: along the first edge, from the first corner to the second, and along the second edge, each the mean of two

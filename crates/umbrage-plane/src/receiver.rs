@@ -216,7 +216,7 @@ impl View {
             return whole;
         }
         // A box that is cut to size must still lie around the point that is asked about.
-        let capped = whole.scaled(1.0, 0.0, most);
+        let capped = whole.scaled(whole.centre, 1.0, 0.0, most);
         let shift = centre.clamp(whole.centre - whole.half + capped.half, whole.centre + whole.half - capped.half)
             - whole.centre;
         Footprint { centre: capped.centre + shift, corners: capped.corners.map(|corner| corner + shift), ..capped }

@@ -283,9 +283,9 @@ fn d_17_screen_keys_are_the_depths_however_far_and_narrow_the_range() {
 #[test]
 fn footprints_scale_about_their_centre_and_keep_their_minimum() {
     let thin = Footprint::boxed(Vec2::splat(8.0), Vec2::new(2.0, 0.0));
-    let scaled = thin.scaled(3.0, 1.0, Vec2::splat(100.0));
+    let scaled = thin.scaled(thin.centre, 3.0, 1.0, Vec2::splat(100.0));
     assert_eq!((scaled.half, scaled.corners[2]), (Vec2::new(6.0, 1.0), Vec2::new(14.0, 9.0)));
-    assert_eq!(Footprint::point(Vec2::ONE).scaled(3.0, 0.0, Vec2::splat(9.0)), Footprint::point(Vec2::ONE));
+    assert_eq!(Footprint::point(Vec2::ONE).scaled(Vec2::ONE, 3.0, 0.0, Vec2::splat(9.0)), Footprint::point(Vec2::ONE));
     assert_eq!(TexelRect::around(Vec2::splat(1.5), Vec2::splat(1.25)), TexelRect::new(IVec2::ZERO, IVec2::splat(3)));
 }
 

@@ -340,7 +340,8 @@ fn fig_3d_taps_stay_inside_the_quadrilateral_of_v42() {
     let corner = |s: f32, t: f32| Vec2::new(s, t) * 1024.0;
     let (a, b) = (corner(0.610_685_5, 0.331_708_36), corner(0.610_133, 0.335_023_6));
     let (c, d) = (corner(0.611_877_9, 0.334_497), corner(0.612_439_46, 0.331_177_6));
-    let region = Footprint::around([a, b, c, d]).scaled(3.0, 0.0, Vec2::splat(256.0));
+    let region = Footprint::around([a, b, c, d]);
+    let region = region.scaled(region.centre, 3.0, 0.0, Vec2::splat(256.0));
     close(f64::from(region.quad_share()), 0.621_014_7, 1e-3);
     let inside = |at: Vec2, slack: f32| {
         (0..4).all(|k| {

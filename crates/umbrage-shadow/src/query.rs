@@ -107,19 +107,20 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         self.map
     }
 
-    /// The receiver's own footprint, enlarged: its half-extents times `res_factor`, at least `min_size` texels, and at most a quarter of
-    /// the map to each side.
+    /// The receiver's own footprint, enlarged about the point: its half-extents times `res_factor`, at least `min_size` texels, and at
+    /// most a quarter of the map to each side.
     #[inline(always)]
     pub fn region(&self, res_factor: f32, min_size: f32) -> Footprint {
-        self.receiver.footprint.scaled(res_factor, min_size, self.limit())
+        self.receiver.footprint.scaled(self.receiver.texel.as_vec2(), res_factor, min_size, self.limit())
     }
 
-    /// A box of half-extents `half` (texels) about the receiver's footprint, no narrower than that and at most a quarter of the map to
+    /// A box of half-extents `half` (texels) about the point, no narrower than the receiver's footprint and at most a quarter of the map to
     /// each side.
     #[inline(always)]
     pub fn region_around(&self, half: Vec2) -> Footprint {
         let own = self.receiver.footprint;
-        Footprint::boxed(own.centre, half.max(own.half).min(self.limit()))
+        let centre = self.receiver.texel.as_vec2();
+        Footprint::boxed(centre, half.max(own.half + (own.centre - centre).abs()).min(self.limit()))
     }
 
     /// Greatest half-extents of any region: a quarter of the map.

@@ -160,7 +160,8 @@ fn slanted_region() -> Footprint {
         (0.611_877_9, 0.334_497_0),
         (0.610_133_0, 0.335_023_6),
     ];
-    Footprint::around(corners.map(|(s, t)| (DVec2::new(s, t) * 1024.0).as_vec2())).scaled(3.0, 0.0, Vec2::splat(256.0))
+    let region = Footprint::around(corners.map(|(s, t)| (DVec2::new(s, t) * 1024.0).as_vec2()));
+    region.scaled(region.centre, 3.0, 0.0, Vec2::splat(256.0))
 }
 
 /// Calls back with every tap of a pattern in the figure's region.

@@ -18,7 +18,7 @@ fn v66_a_ball_is_framed_by_its_tangent_cone() {
     assert_eq!(fit(&away, inside), Err(FrameError::Inside { distance: 10.0, radius: 11.0 }));
     let sun = View::orthographic(DVec3::ZERO, DVec3::NEG_Y, DVec3::X, 99.0, 0.0, 1.0, UVec2::splat(8)).unwrap();
     let found = fit(&sun, ball).unwrap();
-    assert_eq!(found.projection(), Projection::orthographic(glam::DVec2::splat(3.0)));
+    assert_eq!(found.projection(), Projection::orthographic(DVec2::splat(3.0)));
 }
 
 #[test]

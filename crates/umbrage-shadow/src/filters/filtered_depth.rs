@@ -6,7 +6,7 @@ use umbrage_sample::{EveryTexel, Pattern};
 
 /// The control of Reeves' Figure 2a: filter the depths, then compare once (R87-10). The answer is 0 or 1, and near an edge it means nothing.
 ///
-/// A region that holds a texel without a surface has a mean of +∞ and is lit; one whose centre lies outside the map or the cone answers
+/// A region that holds a texel without a surface has a mean of +∞ and is lit; one whose point lies outside the map or the cone answers
 /// by the view's rules (spec C-10). Over a deep map the mean is weighted by what each surface stops, and the answer is 0 or what all of them stop
 /// together.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +41,7 @@ impl<P> FilteredDepth<P> {
 impl<P: Pattern> Filter for FilteredDepth<P> {
     #[inline(always)]
     fn shadow<S: Simd, M: DepthMap, Q: Probe>(&self, query: &mut Query<'_, S, M, Q>) -> f32 {
-        if let Some(dark) = query.placed(query.receiver().footprint.centre) {
+        if let Some(dark) = query.placed(query.receiver().texel.as_vec2()) {
             return dark;
         }
         let region = query.region(self.res_factor, 0.0);

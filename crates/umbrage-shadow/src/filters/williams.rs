@@ -120,7 +120,7 @@ impl Filter for Williams {
     #[inline(always)]
     fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32 {
         let (view, receiver, key) = (query.view(), query.receiver(), query.key());
-        let mut at = receiver.footprint.centre;
+        let mut at = receiver.texel.as_vec2();
         if self.dither.amplitude > 0.0 {
             let draw = |axis| Dither::draw(self.dither.law, key, axis);
             at += Vec2::new(draw(0), draw(1)) * self.dither.amplitude;

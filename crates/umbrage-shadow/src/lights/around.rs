@@ -114,7 +114,7 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
     #[inline(always)]
     fn within<S: Simd>(&self, simd: S, map: &M, channel: Channel, point: &SurfacePoint, key: Key) -> f32 {
         match map.view().receiver(point) {
-            Ok(receiver) if map.view().locate(receiver.footprint.centre) == Place::Inside => {
+            Ok(receiver) if map.view().locate(receiver.texel.as_vec2()) == Place::Inside => {
                 Query::new(simd, map, &receiver, key, &mut ()).of_channel(channel).ask(&self.filter)
             }
             _ => 0.0,

@@ -17,7 +17,7 @@ impl Shadow for Tags {
         for (point, fraction) in at.iter().zip(out) {
             let place = match view.receiver(point) {
                 Ok(seen) => {
-                    let texel = seen.footprint.centre;
+                    let texel = seen.texel.as_vec2();
                     match view.rules().verdict(view.locate(texel)) {
                         Verdict::Compare => {
                             let other = self.0.id(texel.floor().as_ivec2()).is_some_and(|id| id != point.object);

@@ -153,7 +153,8 @@ fn v41_wm94_10_edge_on_planes_fall_back_and_horizons_are_infinitely_far_d_5() {
     let near = |found: f32, wanted: f64| (f64::from(found) * wanted - 1.0).abs() < 1e-5;
     assert!(near(at(-0.5), 0.22) && near(at(0.0), 0.02), "{} {}", at(-0.5), at(0.0));
     assert_eq!(at(0.5), f32::INFINITY);
-    let past = Receiver { footprint: Footprint::point(Vec2::new(48.0, 32.0)), ..wall };
+    let beyond = Vec2::new(48.0, 32.0);
+    let past = Receiver { footprint: Footprint::point(beyond), texel: beyond.as_dvec2(), ..wall };
     for (stored, wanted) in [(99.0, 1.0), (f32::INFINITY, 0.0)] {
         assert_eq!(probed(&always(), &map(&view, |_| stored), &past).0, wanted, "{stored}");
     }
