@@ -31,6 +31,7 @@ pub type Law = (&'static str, fn(&Subject) -> Found);
 pub const EVERY: &[Law] = &[
     ("places outside the map and the cone answer by the view's rules", places::outside),
     ("dark rules never lighten", places::dark_rules),
+    ("parallel light does not depend on where its eye stands", places::slid),
     ("an empty map is lit and a full one dark", places::empty_and_full),
     ("opaque surfaces of a deep map are those of a plain one", deep::opaque),
     ("a veil passes its fraction, in colour too", deep::veil),

@@ -33,6 +33,34 @@ fn ask(shadow: &dyn Shadow, at: &SurfacePoint) -> f32 {
     shadow.fraction(at, KEY)
 }
 
+/// Sliding a sun's eye along its axis, its near and far plane staying where they are, moves all depths alike. Some are then below 0.
+pub fn slid(subject: &Subject) -> Found {
+    let answers = |back: f64| -> Vec<f32> {
+        let size = UVec2::splat(64);
+        let eye = DVec3::Y * (20.0 + back);
+        let view = View::orthographic(eye, DVec3::NEG_Y * 100.0, DVec3::NEG_Z, 8.0, 4.0 + back, 40.0 + back, size);
+        let view = view.expect("a sun");
+        // Plates of several heights, holes between them.
+        let height =
+            |i: u32| [8.0, 14.0, 16.0, f32::INFINITY][(KEY.bits(i % 64 / 7 + 16 * (i / 64 / 7), 3) % 4) as usize];
+        let stored = (0..64 * 64).map(|i| height(i) + back as f32).collect();
+        let shadow = subject.over(&Raw::new(view, stored).expect("a map").into());
+        let places = (0..200).map(|i| {
+            let texel = Vec2::new(KEY.unit(i, 0), KEY.unit(i, 1)) * 48.0 + 8.0;
+            let at = SurfacePoint { region: i, ..point(&view, texel, 20.0 + back, KEY.unit(i, 2) * 2.0) };
+            ask(&*shadow, &at)
+        });
+        places.collect()
+    };
+    let here = answers(0.0);
+    for back in [-20.0, -32.0, 64.0, 256.0] {
+        let there = answers(back);
+        let apart = here.iter().zip(&there).filter(|(a, b)| (*a - *b).abs() > 1e-3).count();
+        check(apart == 0, || format!("{apart} of {} answers change {back} units back", here.len()))?;
+    }
+    check(here.iter().any(|dark| *dark > 0.0), || "nothing is in shadow".into())
+}
+
 /// A whole map's width beyond its border no region reaches back inside, whatever its size.
 pub fn outside(subject: &Subject) -> Found {
     let cone = |rules| lamp(rules).with_cone(Some(0.2_f64.atan().cos())).expect("a cone");

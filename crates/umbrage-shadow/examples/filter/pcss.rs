@@ -1,4 +1,5 @@
 use umbrage_depth::DepthMap;
+use umbrage_plane::Projection;
 use umbrage_sample::Disc;
 use umbrage_shadow::{BiasCone, Filter, Met, Probe, Query, Simd};
 
@@ -27,7 +28,13 @@ impl Filter for Pcss {
                 weight += stopped;
             }
         });
-        let width = if weight > 0.0 { self.light * (own * weight / sum - 1.0).max(0.0) } else { 0.0 };
+        // Parallel light comes from nowhere: what it has no distance for is compared with the map's width.
+        let mean = sum / weight;
+        let from = match query.view().projection() {
+            Projection::Perspective { .. } => mean,
+            Projection::Orthographic { half, .. } => 2.0 * half.max_element() as f32,
+        };
+        let width = if weight > 0.0 { self.light * ((own - mean) / from).max(0.0) } else { 0.0 };
         query.share(&query.region_around(glam::Vec2::splat(width.max(0.5))), &self.taps, &self.depth)
     }
 }

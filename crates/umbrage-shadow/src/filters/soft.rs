@@ -2,7 +2,7 @@ use crate::{BiasCone, Biased, Filter, Probe, Query, ReceiverDepth};
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec2;
 use umbrage_depth::DepthMap;
-use umbrage_plane::{Bias, Footprint, Kind, Receiver, View};
+use umbrage_plane::{Bias, Footprint, Kind, Projection, Receiver, View};
 use umbrage_sample::{Density, Disc};
 
 /// A radius on the map, from 0; +∞ is more than the map has. The unit is part of the type.
@@ -35,6 +35,9 @@ impl MapRadius {
 pub enum Softness {
     /// Burley's: from `min` where the occluder touches the receiver to `max` where it is at the light, by 1 − z̄/z_p. Occluders are searched
     /// within `max`. A disc light's own penumbra for one distance of occluders only (D-16).
+    ///
+    /// Parallel light comes from nowhere: there `max` is reached where the occluder is as far from the receiver as the map is
+    /// wide, in world units, over the larger of its sides.
     Between {
         /// Radius at contact.
         min: MapRadius,
@@ -46,7 +49,8 @@ pub enum Softness {
         /// Radius of the disc in world units; of a directional light, the tangent of its angular radius (the sun: .00465).
         radius: f32,
         /// No occluder is nearer to the light than this, axial world units: it bounds the search. 0, or anything below it, is the near
-        /// plane's distance, which is always safe; larger is less noisy.
+        /// plane's distance, which is always safe; larger is less noisy. In parallel light distances from the light mean nothing, and
+        /// the near plane bounds the search.
         nearest: f32,
     },
 }
@@ -65,7 +69,11 @@ impl Softness {
         match self {
             Self::Between { min, max } => max.texels(view, receiver).max(min.texels(view, receiver)),
             // What is nearer than the near plane stands at it in the map.
-            Self::Light { nearest, .. } => self.blur(view, receiver, nearest.max(view.near() as f32), distance, 1.0),
+            Self::Light { nearest, .. } => {
+                let near = view.near() as f32;
+                let bound = if view.is_perspective() { nearest.max(near) } else { near };
+                self.blur(view, receiver, bound, distance, 1.0)
+            }
         }
     }
 
@@ -75,7 +83,13 @@ impl Softness {
         match self {
             Self::Between { min, max } => {
                 let (min, max) = (min.texels(view, receiver), max.texels(view, receiver));
-                min + (max - min) * Self::factor(mean, distance).powf(gamma)
+                let factor = match view.projection() {
+                    Projection::Perspective { .. } => Self::factor(mean, distance),
+                    Projection::Orthographic { half, .. } => {
+                        ((distance - mean) / (2.0 * half.max_element()) as f32).clamp(0.0, 1.0)
+                    }
+                };
+                min + (max - min) * factor.powf(gamma)
             }
             Self::Light { radius, .. } => {
                 // Seen from the light, the half penumbra has the tangent ℓ/2·(1/ζ_o − 1/ζ_r); at the receiver it is ζ_r as wide.
