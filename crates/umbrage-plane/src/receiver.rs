@@ -48,7 +48,9 @@ pub enum Bias {
     Texels(f32),
     /// Depth steps of the receiver's own plane from texel to texel: τ·tanθ (spec D-9). ½ along each axis is free of acne for point look-ups.
     Steps(f32),
-    /// Units of the stored numbers: z_s in a screen map, quanta times the quantum for integer depth. Williams 1978.
+    /// Fractions of the way from the near plane to the far one, as screen depth z_s measures it: the very numbers that a map of
+    /// [`Kind::Screen`] stores, quanta times the quantum for integer depth (Williams 1978). Over a map of another kind it is the same
+    /// step in space.
     Map(f32),
 }
 
@@ -100,7 +102,8 @@ impl Receiver {
     #[inline(always)]
     pub fn nearer(&self, view: &View, bias: Bias) -> f32 {
         let world = match bias {
-            Bias::Map(amount) => return self.depth - amount,
+            Bias::Map(amount) if self.kind == Kind::Screen || amount.is_infinite() => return self.depth - amount,
+            Bias::Map(amount) => self.screen_step(view, amount),
             Bias::World(amount) => amount,
             Bias::Texels(amount) => amount * self.texel_world.max_element(),
             Bias::Steps(amount) => {
@@ -116,6 +119,19 @@ impl Receiver {
             }
         };
         self.toward_light(view, world)
+    }
+
+    /// A step of screen depth toward the light in world units: along the axis, or along the ray in a radial map.
+    #[inline(always)]
+    fn screen_step(&self, view: &View, amount: f32) -> f32 {
+        let (near, far, zeta) = (view.near(), view.far(), -self.eye.z);
+        if !view.is_perspective() {
+            return (f64::from(amount) * (far - near)) as f32;
+        }
+        // Beyond a screen depth of f/(f − n), which infinity has, nothing is.
+        let inverse = (1.0 / zeta + f64::from(amount) * (far - near) / (far * near)).max(0.0);
+        let along = if self.kind == Kind::Radial { f64::from(self.depth) / zeta } else { 1.0 };
+        ((zeta - 1.0 / inverse) * along) as f32
     }
 
     /// The depth after a step of `world` units toward the light.

@@ -235,6 +235,30 @@ fn a_capped_footprint_still_lies_around_its_point() {
 }
 
 #[test]
+fn a_step_of_screen_depth_is_the_same_step_in_space_in_every_kind_of_map() {
+    let sun = View::orthographic(DVec3::Y * 9.0, DVec3::ZERO, DVec3::X, 8.0, -3.0, 30.0, UVec2::splat(64)).unwrap();
+    for (view, x) in [(lamp(64), 0.0), (lamp(64), 4.0), (sun, 2.0)] {
+        let at = SurfacePoint::at(Vec3::new(x, 0.5, 1.0), Vec3::Y);
+        let eye = view.world_to_eye().transform_point3(at.position);
+        for amount in [0.0, 1e-5, 2.0 / 65_535.0, 0.01, 0.2] {
+            let ends = [Kind::Screen, Kind::Axial, Kind::Radial].map(|kind| {
+                let view = view.with_kind(kind);
+                let moved = f64::from(view.receiver(&at).unwrap().nearer(&view, Bias::Map(amount)));
+                match kind {
+                    Kind::Screen => view.decode().zeta(moved as f32),
+                    Kind::Radial if view.is_perspective() => moved * -eye.z / eye.length(),
+                    Kind::Axial | Kind::Radial => moved,
+                }
+            });
+            // A screen map's own numbers are rounded to f32, which is coarse far from the near plane.
+            assert!((ends[1] - ends[2]).abs() < 1e-5 && (ends[0] - ends[1]).abs() < 2e-4, "{x} {amount}: {ends:?}");
+        }
+        let back = |amount: f32| view.receiver(&at).unwrap().nearer(&view, Bias::Map(amount));
+        assert!(back(-0.5) > back(0.0) && back(f32::INFINITY) == f32::NEG_INFINITY);
+    }
+}
+
+#[test]
 fn c_11_c_12_every_unit_of_bias_is_the_same_distance_by_another_name() {
     // 128 × 32 texels over 90° in height: at ζ = 8 a texel is .5 high and, with square texels kept, .5 wide.
     let eye = DVec3::new(0.0, 8.0, 0.0);
@@ -250,7 +274,8 @@ fn c_11_c_12_every_unit_of_bias_is_the_same_distance_by_another_name() {
     close(moved(&view, Bias::World(0.25)), 0.25, 1e-6);
     close(moved(&view, Bias::Texels(2.0)), 1.0, 1e-6);
     close(moved(&view, Bias::Steps(2.0)), 0.75, 1e-6);
-    close(moved(&view, Bias::Map(0.125)), 0.125, 1e-6);
+    // Screen depth is linear in 1/ζ: an eighth of the range nearer than 8, of 1 to 100.
+    close(moved(&view, Bias::Map(0.125)), 8.0 - 1.0 / (1.0 / 8.0 + 0.125 * 0.99), 1e-6);
     // Half the columns over the same field: texels are twice as wide as high, and the larger side counts.
     let wide = view.with_size(UVec2::new(64, 32)).unwrap();
     assert_eq!(wide.receiver(&at).unwrap().texel_world, Vec2::new(1.0, 0.5));

@@ -23,7 +23,7 @@ pub enum Kind {
     BelowOne,
     /// A number above 0, at most 1.
     Ratio,
-    /// A number from 0 with a unit: `w` or none for world units, `t` texels, `s` depth steps, `m` map units.
+    /// A number from 0 with a unit: `w` or none for world units, `t` texels, `s` depth steps, `m` fractions of the range from near to far as screen depth has it.
     Bias,
     /// The same, or a range `a..b` with one unit behind it.
     BiasRange,

@@ -20,7 +20,7 @@ use umbrage_shadow::Shadow;
 /// | `fernando` | first | soft, plain mean, constant bias |
 /// | `ordinary` | first | depths filtered first: the control |
 ///
-/// Units: `t` texels, `w` world units, `s` depth steps, `m` map units, `%` of the map's sides.
+/// Units: `t` texels, `w` world units, `s` depth steps, `m` fractions of the range from near to far as screen depth has it, `%` of the map's sides.
 ///
 #[doc = include_str!("fields.md")]
 ///
