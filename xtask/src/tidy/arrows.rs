@@ -77,7 +77,7 @@ const RULES: &[Rule] = &[
     Rule {
         package: "umbrage-io",
         arrows: &["umbrage-depth"],
-        outside: &["exr", "fearless_simd", "glam", "image", "thiserror"],
+        outside: &["exr", "fearless_simd", "glam", "png", "thiserror"],
         tests: PROPERTIES,
     },
     Rule {
