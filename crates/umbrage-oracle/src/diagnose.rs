@@ -1,11 +1,11 @@
 //! What is wrong with a scene before a map of it is made: values to act on, each with its line for people.
 
-use crate::predict::severe_perspective;
-use crate::thin::too_thin;
+use crate::predict::{float_step, severe_perspective};
+use crate::thin::{stacked, too_thin};
 use crate::{Diagnostic, Plan};
 use umbrage_depth::Stored;
-use umbrage_plane::View;
-use umbrage_scene::{Light, Scene, Shape};
+use umbrage_plane::{Kind, View};
+use umbrage_scene::{Ball, Light, Scene, Shape};
 
 impl Default for Plan {
     /// Float depth of the first surface with Reeves' smaller bias.
@@ -33,6 +33,10 @@ pub fn diagnose(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
         let (light, bias) = (light.name.clone(), plan.bias_world);
         found.push(Diagnostic::SeverePerspective { light, bits, farthest, step, bias });
     }
+    if plan.depth_bits.is_none() {
+        found.extend(farthest.and_then(|farthest| coarse_depth(light, plan.bias_world, farthest)));
+    }
+    found.extend(sizes(scene, light, plan.bias_world));
     if plan.stored == Stored::Midpoint
         && let Some(receiver) = scene.objects.iter().find(|object| object.receives && !object.casts)
     {
@@ -52,6 +56,62 @@ pub fn diagnose(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
         }
     }
     found.extend(scene.objects.iter().filter_map(|object| too_thin(scene, object, light, plan)));
+    found.extend(stacked(scene, light, plan));
+    found
+}
+
+/// Whether floats are fine enough at the farthest receiver, in the map's kind of depth or in another.
+fn coarse_depth(light: &Light, bias: f64, farthest: f64) -> Option<Diagnostic> {
+    let kind = light.view.kind();
+    let step = float_step(&light.view, farthest);
+    if step <= 0.5 * bias.max(0.0) || bias <= 0.0 {
+        return None;
+    }
+    let others =
+        [Kind::Axial, Kind::Screen, Kind::Radial].map(|kind| (kind, float_step(&light.view.with_kind(kind), farthest)));
+    let finest = others.into_iter().filter(|(_, step)| *step <= 0.5 * bias).min_by(|a, b| a.1.total_cmp(&b.1));
+    let better = finest.map(|(kind, _)| kind);
+    Some(Diagnostic::CoarseDepth { light: light.name.clone(), kind, farthest, step, bias, better })
+}
+
+/// Casters that are smaller than a texel, and casters that are no larger than twice the bias.
+fn sizes(scene: &Scene, light: &Light, bias: f64) -> Vec<Diagnostic> {
+    struct Seen {
+        object: usize,
+        size: f64,
+        texel: f64,
+    }
+    let view = &light.view;
+    let casters = scene.objects.iter().enumerate().filter(|(_, object)| object.casts);
+    let seen: Vec<Seen> = casters
+        .filter_map(|(object, thing)| {
+            let points: Vec<_> = scene.hull(thing).collect();
+            let ball = Ball::around(&points)?;
+            let zeta = -view.world_to_eye().transform_point3(ball.centre).z;
+            let in_front = !view.is_perspective() || zeta > 0.0;
+            let texel = view.texel_world(zeta).max_element();
+            in_front.then_some(Seen { object, size: 2.0 * ball.radius, texel })
+        })
+        .collect();
+    let (of, name) = (seen.len(), |seen: &Seen| scene.objects[seen.object].name.clone());
+    let mut found = Vec::new();
+    let below: Vec<&Seen> = seen.iter().filter(|seen| seen.size < seen.texel).collect();
+    if let Some(worst) = below.iter().max_by(|a, b| (a.texel / a.size).total_cmp(&(b.texel / b.size))) {
+        found.push(Diagnostic::CoarseTexels {
+            light: light.name.clone(),
+            casters: below.len(),
+            of,
+            object: name(worst),
+            size: worst.size,
+            texel: worst.texel,
+            side_needed: (f64::from(view.size().max_element()) * worst.texel / worst.size).ceil() as u32,
+        });
+    }
+    let lost: Vec<&Seen> = seen.iter().filter(|seen| seen.size < 2.0 * bias).collect();
+    if let Some(worst) = lost.iter().min_by(|a, b| a.size.total_cmp(&b.size)) {
+        let (light, object) = (light.name.clone(), name(worst));
+        found.push(Diagnostic::LargeBias { light, bias, casters: lost.len(), of, object, size: worst.size });
+    }
     found
 }
 

@@ -1,4 +1,5 @@
 use umbrage_depth::Stored;
+use umbrage_plane::Kind;
 
 /// Something about a light and a scene that will show in the picture.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -30,6 +31,81 @@ pub enum Diagnostic {
         step: f64,
         /// The bias, world units.
         bias: f64,
+    },
+    /// The 24 bits of a float are too coarse for the farthest receiver in this kind of depth: narrow ranges far away in axial or
+    /// radial depth, a near plane close to the light in screen depth.
+    #[error(
+        "light {light:?}: at distance {farthest} a float of {kind:?} depth is rounded to {step} world units, more than half the bias {bias}: {}",
+        mend(*better)
+    )]
+    CoarseDepth {
+        /// The light's name.
+        light: String,
+        /// What its map stores.
+        kind: Kind,
+        /// Axial distance of the farthest receiver.
+        farthest: f64,
+        /// From one float to the next there, world units.
+        step: f64,
+        /// The bias, world units.
+        bias: f64,
+        /// The kind that rounds to no more than half the bias, if there is one.
+        better: Option<Kind>,
+    },
+    /// Casters are smaller than a texel where they are: they are met by chance, and their shadows come and go.
+    #[error(
+        "light {light:?}: {casters} of {of} casters are smaller than a texel, {object:?} for one, which is {size:.4} world units across          where a texel is {texel:.4}: use several views, a window fitted to the casters, or a map of {side_needed} texels a side"
+    )]
+    CoarseTexels {
+        /// The light's name.
+        light: String,
+        /// Casters below a texel.
+        casters: usize,
+        /// All casters that the light has in front of it.
+        of: usize,
+        /// The caster with the largest texel for its size.
+        object: String,
+        /// Across, world units.
+        size: f64,
+        /// The larger side of a texel at its distance, world units.
+        texel: f64,
+        /// Texels along the map's longer side of which one is as small as the caster; `u32::MAX` when none is.
+        side_needed: u32,
+    },
+    /// The bias is as large as what casts: shadows are lost, or start far behind what throws them.
+    #[error(
+        "light {light:?}: the bias of {bias} world units is more than half the size of {casters} of {of} casters, {object:?} for one, which          is {size:.6} across: give the bias in texels, or in the scene's own measure"
+    )]
+    LargeBias {
+        /// The light's name.
+        light: String,
+        /// The bias, world units.
+        bias: f64,
+        /// Casters less than twice the bias across.
+        casters: usize,
+        /// All casters that the light has in front of it.
+        of: usize,
+        /// The smallest of them.
+        object: String,
+        /// Across, world units.
+        size: f64,
+    },
+    /// Another surface lies so close behind a caster that what is stored between them shadows the caster: a rug on a floor, a
+    /// floor that is drawn twice, boxes that touch (Woo 1992; Wang & Molnar 1994; WM94-17).
+    #[error(
+        "light {light:?}: {other:?} lies {gap:.6} world units behind {object:?} where depth changes by {step:.4} over the filter, so that          {object:?} shadows itself: store nearest surfaces with a bias, or back faces, or leave one of them out of the map"
+    )]
+    Stacked {
+        /// The light's name.
+        light: String,
+        /// The object in front.
+        object: String,
+        /// What lies behind it; the same where a sheet lies on itself.
+        other: String,
+        /// Along the light's axis, world units; 0 for a duplicate.
+        gap: f64,
+        /// What depth may be wrong by there, as in [`Diagnostic::TooThin`].
+        step: f64,
     },
     /// Under the midpoint rule a single sheet leaves nothing to compare with where its receiver is not in the map (Woo 1992; W92-9).
     #[error(
@@ -69,10 +145,18 @@ pub enum Diagnostic {
     },
 }
 
+/// What to do about a kind of depth.
+fn mend(better: Option<Kind>) -> String {
+    match better {
+        Some(kind) => format!("{kind:?} depth is fine enough"),
+        None => "no kind is fine enough: bring the light nearer, or raise the near plane or the bias".into(),
+    }
+}
+
 /// What a light's map is going to be used for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// Bits of integer depth; `None` for floats.
+    /// Bits of integer depth; `None` for floats, which have 24.
     pub depth_bits: Option<u32>,
     /// The bias, world units.
     pub bias_world: f64,

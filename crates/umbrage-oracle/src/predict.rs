@@ -3,7 +3,7 @@
 //! Lengths are in one unit of the caller's choice within a call (world units, or texels), angles in radians.
 
 use umbrage_depth::Stored;
-use umbrage_plane::View;
+use umbrage_plane::{Kind, View};
 
 /// Share of a lit plane in false shadow under nearest look-up, bias drawn uniformly from `bias.0..=bias.1` (D-9).
 ///
@@ -55,6 +55,21 @@ fn share_integral(g1: f64, g2: f64, bias: f64) -> f64 {
 /// 0 for a point look-up (D-9).
 pub fn acne_free_bias(g1: f64, g2: f64, radius: f64) -> f64 {
     (radius + 0.5) * (g1 + g2)
+}
+
+/// From one stored float to the next at an axial distance, in world units along the axis: what a view's kind of depth rounds
+/// to on its axis of view.
+pub fn float_step(view: &View, zeta: f64) -> f64 {
+    let ulp = |stored: f64| (stored as f32).abs().next_up() - (stored as f32).abs();
+    match view.kind() {
+        Kind::Axial | Kind::Radial => f64::from(ulp(zeta)),
+        Kind::Screen => {
+            let (near, far) = (view.near(), view.far());
+            let steps = f64::from(ulp(view.key(zeta)));
+            // The inverse of dz_s/dζ.
+            steps * (far - near) * if view.is_perspective() { zeta * zeta / (far * near) } else { 1.0 }
+        }
+    }
 }
 
 /// Variance of the mean of `samples` independent samples of a region of which the share `dark` is in shadow (D-12).

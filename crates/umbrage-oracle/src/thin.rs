@@ -49,6 +49,62 @@ pub(crate) fn too_thin(scene: &Scene, object: &Object, light: &Light, plan: &Pla
     Some(Diagnostic::TooThin { light: light.name.clone(), object: object.name.clone(), thickness, step, side_needed })
 }
 
+/// The nearest pair of a caster and what lies behind it along the light, for each caster, where what is stored between them
+/// shadows the caster. Only midpoints are stored there: a second surface is the caster's own or the other's, and what lies on it
+/// is lit.
+pub(crate) fn stacked(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
+    if !(plan.slope > 0.0 && plan.stored == Stored::Midpoint) {
+        return Vec::new();
+    }
+    let view = &scene.about_origin(&light.view);
+    let meshes: Vec<_> = scene.objects.iter().map(|object| object.shape.mesh_for(view)).collect();
+    let casting = || scene.objects.iter().enumerate().filter(|(_, object)| object.casts);
+    let faces = casting().flat_map(|(object, _)| {
+        let mesh = &meshes[object];
+        (0..mesh.triangles.len()).map(move |triangle| Face { corners: mesh.corners(triangle), object: object as u32 })
+    });
+    let all = Geometry::from_faces(faces.collect(), vec![Body::default(); scene.objects.len()]);
+    let mut worst: BTreeMap<u32, (f64, Diagnostic)> = BTreeMap::new();
+    for (index, face) in all.faces().iter().enumerate() {
+        let corners = face.corners.map(Vec3::as_dvec3);
+        let middle = corners.iter().sum::<DVec3>() / 3.0;
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
+        let toward = view.toward_eye(middle);
+        let solid = scene.objects[face.object as usize].solid;
+        let facing = normal.dot(toward);
+        let zeta = -view.world_to_eye().transform_point3(middle).z;
+        let axial = toward.dot(view.ahead()).abs();
+        let slope = view.world_to_eye().transform_vector3(normal).truncate().abs() * (axial / facing.abs());
+        // The back of a solid is dark anyway.
+        if facing == 0.0 || (solid && facing < 0.0) || slope.length() > plan.slope || zeta <= 0.0 {
+            continue;
+        }
+        // From a little above, so that what coincides with the face is met too.
+        let above = corners[0].distance(corners[1]).max(corners[0].distance(corners[2])) * 1e-6;
+        let hits = all.hits(middle + toward * above, -toward);
+        let Some(own) = hits.iter().find(|hit| hit.face as usize == index).map(|hit| hit.t) else { continue };
+        let steps = view.texel_world(zeta) * slope;
+        let step = acne_free_bias(steps.x, steps.y, plan.filter_half);
+        let behind = |hit: &&crate::Hit| {
+            // Neighbours of the same piece, and a solid's own back, are for others to judge.
+            let other = hit.object != face.object || (!solid && hit.face as usize != index);
+            other && hit.t >= own - 2.0 * above
+        };
+        let Some(next) = hits.iter().filter(behind).min_by(|a, b| a.t.total_cmp(&b.t)) else { continue };
+        let gap = ((next.t - own) * axial).max(0.0);
+        let excess = step - (gap - slack(plan.stored, gap));
+        if excess > 0.0 && worst.get(&face.object).is_none_or(|(known, _)| excess > *known) {
+            let name = |object: u32| scene.objects[object as usize].name.clone();
+            let (object, other) = (name(face.object), name(next.object));
+            worst.insert(
+                face.object,
+                (excess, Diagnostic::Stacked { light: light.name.clone(), object, other, gap, step }),
+            );
+        }
+    }
+    worst.into_values().map(|(_, found)| found).collect()
+}
+
 /// Corners of a triangle, its unit normal, and the unit vector from its middle to the light.
 fn lit(mesh: &Mesh, triangle: usize, view: &View) -> ([DVec3; 3], DVec3, DVec3) {
     let corners = mesh.corners(triangle).map(Vec3::as_dvec3);

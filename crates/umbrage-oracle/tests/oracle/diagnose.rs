@@ -4,7 +4,8 @@ use glam::{DVec3, Mat3, UVec2, Vec3};
 use std::f32::consts::FRAC_PI_4;
 use umbrage_depth::Stored;
 use umbrage_oracle::{Diagnostic, Plan, diagnose};
-use umbrage_scene::{Light, Mesh, Scene, Shape, gallery};
+use umbrage_plane::{Kind, View};
+use umbrage_scene::{Light, Material, Mesh, Object, Scene, Shape, gallery};
 
 fn named(scene: &Scene, plan: &Plan) -> Vec<Diagnostic> {
     diagnose(scene, &scene.lights[0], plan)
@@ -39,8 +40,7 @@ fn w78_9_severe_perspective_is_told_with_its_step() {
     assert_eq!(named(&scene, &plan), []);
     let light = scene.lights[0].view;
     let eye = light.light().truncate();
-    let close =
-        umbrage_plane::View::perspective(eye, DVec3::new(0.0, 0.0, 25.0), DVec3::Y, 0.5, 0.05, 300.0, light.size());
+    let close = View::perspective(eye, DVec3::new(0.0, 0.0, 25.0), DVec3::Y, 0.5, 0.05, 300.0, light.size());
     scene.lights[0].view = close.unwrap();
     let found = named(&scene, &plan);
     assert!(matches!(found[..], [Diagnostic::SeverePerspective { step, .. }] if step > 0.15), "{found:?}");
@@ -131,4 +131,129 @@ fn t_9_v53_an_open_sheet_that_claims_to_be_solid_is_told() {
     assert_eq!(named(&scene, &Plan::default()), [Diagnostic::OpenSolid { object: "sphere".into() }]);
     scene.objects[0].solid = false;
     assert_eq!(named(&scene, &Plan::default()), []);
+}
+
+#[test]
+fn floats_that_are_too_coarse_are_named_with_the_kind_that_is_not() {
+    // A scene of size 10 seen from ten million units away through a range of twenty.
+    let mut scene = plate(2.0, true);
+    let away = |kind| {
+        let view =
+            View::perspective(DVec3::Y * 1e7, DVec3::ZERO, DVec3::X, 2e-5, 1e7 - 100.0, 1e7 + 100.0, UVec2::splat(64));
+        view.unwrap().with_kind(kind)
+    };
+    for (kind, better) in [(Kind::Axial, Some(Kind::Screen)), (Kind::Radial, Some(Kind::Screen)), (Kind::Screen, None)]
+    {
+        scene.lights[0].view = away(kind);
+        let found = named(&scene, &Plan { bias_world: 0.3, ..Plan::default() });
+        let coarse = found.iter().find_map(|found| match found {
+            Diagnostic::CoarseDepth { kind, step, better, .. } => Some((*kind, *step, *better)),
+            _ => None,
+        });
+        match better {
+            Some(_) => assert_eq!(coarse, Some((kind, 1.0, better)), "{found:?}"),
+            None => assert_eq!(coarse, None, "{found:?}"),
+        }
+    }
+    // A tiny near plane before a far scene: there screen depth is the coarse one.
+    let near = View::perspective(DVec3::Y * 80.0, DVec3::ZERO, DVec3::X, 1.2, 1e-4, 1e4, UVec2::splat(64)).unwrap();
+    for (kind, coarse) in [(Kind::Screen, true), (Kind::Axial, false), (Kind::Radial, false)] {
+        scene.lights[0].view = near.with_kind(kind);
+        let found = named(&scene, &Plan::default());
+        let any = found
+            .iter()
+            .any(|found| matches!(found, Diagnostic::CoarseDepth { better: Some(Kind::Axial | Kind::Radial), .. }));
+        assert_eq!(any, coarse, "{kind:?}: {found:?}");
+    }
+    // Every line stands on its own.
+    assert!(named(&scene, &Plan::default()).iter().all(|found| !found.to_string().contains('\n')));
+}
+
+#[test]
+fn casters_below_a_texel_are_named_with_the_map_that_holds_them() {
+    let mut scene = excluded_plane();
+    // The sphere is 40 across at most; the light is far less than 300 away.
+    let of_width = |degrees: f64| {
+        let light = gallery::sphere_plane().lights[0].view;
+        let eye = light.light().truncate();
+        View::perspective(
+            eye,
+            DVec3::new(0.0, 0.0, 25.0),
+            DVec3::Y,
+            degrees.to_radians(),
+            1.0,
+            400.0,
+            UVec2::splat(1024),
+        )
+    };
+    scene.lights[0].view = of_width(179.9).unwrap();
+    let found = named(&scene, &Plan::default());
+    let side = found.iter().find_map(|found| match found {
+        Diagnostic::CoarseTexels { casters: 1, of: 1, size, texel, side_needed, .. } => {
+            assert!(texel > size && *size > 10.0, "{found:?}");
+            Some(*side_needed)
+        }
+        _ => None,
+    });
+    scene.lights[0].view = of_width(179.9).unwrap().with_size(UVec2::splat(side.expect("a warning"))).unwrap();
+    assert!(!named(&scene, &Plan::default()).iter().any(|found| matches!(found, Diagnostic::CoarseTexels { .. })));
+}
+
+#[test]
+fn a_bias_as_large_as_the_scene_is_named() {
+    let scene = excluded_plane();
+    let small = scene.clone().scaled(1e-4).unwrap();
+    let large = |scene: &Scene, bias_world: f64| {
+        let found = named(scene, &Plan { bias_world, ..Plan::default() });
+        found.iter().any(|found| matches!(found, Diagnostic::LargeBias { casters: 1, of: 1, .. }))
+    };
+    assert_eq!((large(&scene, 0.3), large(&small, 0.3), large(&small, 0.3e-4)), (false, true, false));
+}
+
+#[test]
+fn rugs_duplicates_and_flush_boxes_are_named_where_something_is_stored_between_them() {
+    let sheet = |height: f32, name: &str| {
+        let corners = [(-6.0, 6.0), (6.0, 6.0), (6.0, -6.0), (-6.0, -6.0)].map(|(x, z)| Vec3::new(x, height, z));
+        let mut object = Object::solid(name, Mesh::sheet(corners, 1), Material::matt(Vec3::ONE));
+        object.solid = false;
+        object
+    };
+    let tile = |x: f32, name: &str| {
+        Object::solid(
+            name,
+            Mesh::cuboid(Vec3::new(x, -1.0, -6.0), Vec3::new(x + 6.0, 0.0, 6.0)),
+            Material::matt(Vec3::ONE),
+        )
+    };
+    let mut scene = gallery::sphere_plane();
+    let size = UVec2::splat(512);
+    scene.lights =
+        vec![Light::directional("sun", DVec3::new(1.0, 1.0, 0.0), DVec3::ZERO, 6.0, 1.0, 100.0, size).unwrap()];
+    let mut stacked = |objects: Vec<Object>, plan: Plan| -> Vec<(String, String)> {
+        scene.objects = objects;
+        let found = named(&scene, &plan).into_iter();
+        found
+            .filter_map(|found| match found {
+                Diagnostic::Stacked { object, other, .. } => Some((object, other)),
+                _ => None,
+            })
+            .collect()
+    };
+    let midpoint = Plan { stored: Stored::Midpoint, slope: 2.0, bias_world: 0.0, ..Plan::default() };
+    let pair = |a: &str, b: &str| vec![(a.to_string(), b.to_string())];
+    let rug = |height| vec![sheet(0.0, "floor"), sheet(height, "rug")];
+    assert_eq!(stacked(rug(0.001), midpoint), pair("rug", "floor"));
+    assert_eq!(stacked(rug(1.0), midpoint), [], "far enough apart");
+    assert_eq!(stacked(rug(0.001), Plan { stored: Stored::First, ..midpoint }), [], "nothing is stored between them");
+    let twice = stacked(vec![sheet(0.0, "floor"), sheet(0.0, "again")], midpoint);
+    assert_eq!(twice, [pair("floor", "again"), pair("again", "floor")].concat());
+    // Along their seam the midpoint lies between the right one's top and the left one's side.
+    assert_eq!(stacked(vec![tile(-6.0, "left"), tile(0.0, "right")], midpoint), pair("left", "right"));
+    assert_eq!(stacked(vec![tile(-6.0, "left"), tile(4.0, "right")], midpoint), []);
+    assert_eq!(
+        stacked(rug(0.001), Plan { stored: Stored::Second, ..midpoint }),
+        [],
+        "a sheet is its own second surface"
+    );
+    assert_eq!(stacked(vec![tile(-6.0, "box"), tile(-6.0, "again")], midpoint).len(), 2);
 }
