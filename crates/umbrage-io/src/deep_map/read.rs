@@ -3,7 +3,7 @@ use super::content::{EPSILON, numbers};
 use super::opacity::Opacities;
 use super::packing::unpack;
 use crate::error::Fault;
-use crate::shadow_map::{Preface, check_digest, digest};
+use crate::shadow_map::{Nearest, Preface, check_digest, digest};
 use exr::meta::BlockDescription;
 use exr::meta::header::Header;
 use exr::prelude::{AttributeValue, Compression, Text, Vec2};
@@ -102,8 +102,9 @@ fn read_row(
     let expected = expected.ok_or_else(|| broken(&length, &format!("{count} samples need another length")))?;
     let samples = unpack(packing, samples, expected).map_err(|problem| broken(&packed_samples, &problem))?;
     let mut start = 0;
+    let nearest = Nearest::of(&file.view, file.digest);
     for (texel, end) in texels.iter_mut().zip(ends) {
-        *texel = steps(columns, &samples, count, start..end).map_err(|(column, value, problem)| {
+        *texel = steps(columns, nearest, &samples, count, start..end).map_err(|(column, value, problem)| {
             Fault::new(format!("{}: channel {}", file.layout.name(index, offset), column.name()), value, problem)
         })?;
         start = end;
@@ -118,11 +119,15 @@ fn ends(table: &[u8]) -> Option<Vec<usize>> {
     ends.is_sorted().then_some(ends)
 }
 
-type Wrong<'a> = (&'a Column, f32, &'static str);
+type Wrong<'a> = (&'a Column, f32, String);
+
+/// How far a sum of roundings may take an opacity past 0 or 1.
+const OPACITY_ROUNDING: f32 = 1e-5;
 
 /// A texel's steps from its samples, or a channel's value that will not do.
 fn steps<'a>(
     columns: &'a Columns,
+    nearest: Nearest,
     row: &[u8],
     count: usize,
     samples: std::ops::Range<usize>,
@@ -138,7 +143,7 @@ fn steps<'a>(
                 for (column, opacity) in written.filter_map(|(column, opacity)| Some((column.as_ref()?, opacity))) {
                     let found = column.value(row, count, sample);
                     if !column.holds(found, opacity) {
-                        return Err((column, found, "not what belongs to the channels named passes"));
+                        return Err((column, found, "not what belongs to the channels named passes".into()));
                     }
                 }
                 Ok(step)
@@ -149,15 +154,19 @@ fn steps<'a>(
             let mut surfaces = Vec::new();
             for sample in samples {
                 let opacity = opacities.each_ref().map(|column| column.value(row, count, sample));
-                if let Some(at) = opacity.iter().position(|opacity| !(0.0..=1.0).contains(opacity)) {
-                    return Err((&opacities[at], opacity[at], "not an opacity within 0..=1"));
+                let possible = -OPACITY_ROUNDING..=1.0 + OPACITY_ROUNDING;
+                if let Some(at) = opacity.iter().position(|opacity| !possible.contains(opacity)) {
+                    return Err((&opacities[at], opacity[at], "not an opacity within 0..=1".into()));
                 }
                 let depth = depth(sample);
                 if depth.is_nan() {
-                    return Err((&columns.depth, depth, "not a depth"));
+                    return Err((&columns.depth, depth, "not a depth".into()));
+                }
+                if nearest.refuses(depth) {
+                    return Err((&columns.depth, depth, nearest.to_string()));
                 }
                 if depth < NO_SURFACE {
-                    surfaces.push((depth, Vec3::from_array(opacity)));
+                    surfaces.push((depth, Vec3::from_array(opacity.map(|opacity| opacity.clamp(0.0, 1.0)))));
                 }
             }
             Ok(in_order(surfaces))

@@ -1,7 +1,7 @@
 use super::lru::Lru;
 use crate::error::{Fault, IoError};
 use crate::file::open_regular;
-use crate::shadow_map::{Layout, Preface};
+use crate::shadow_map::{Layout, Nearest, Preface};
 use exr::meta::MetaData;
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
@@ -30,6 +30,7 @@ pub(super) struct Pager {
     length: u64,
     meta: MetaData,
     pub(super) layout: Layout,
+    nearest: Nearest,
     offsets: Vec<u64>,
     /// A page is in its slot before it is read, so that nobody else reads it and readers of other pages need not wait.
     pages: Mutex<Lru<Page>>,
@@ -44,7 +45,7 @@ impl Pager {
         }
         let (file, length) = open_regular(path)?;
         let preface = Preface::read(BufReader::new(&file), length, u64::MAX, MOST_TILES);
-        let Preface { meta, view, stored, layout, offsets, .. } = preface.map_err(|fault| fault.in_file(path))?;
+        let Preface { meta, view, stored, digest, layout, offsets } = preface.map_err(|fault| fault.in_file(path))?;
         if !layout.is_tiled() {
             return Err(Fault::new("tiles", "missing", "scan lines cannot be paged").in_file(path));
         }
@@ -55,6 +56,7 @@ impl Pager {
             meta,
             pages: Mutex::new(Lru::new(layout.count(), pages)),
             layout,
+            nearest: Nearest::of(&view, digest),
             offsets,
             faults: AtomicU64::new(0),
             error: OnceLock::new(),
@@ -108,6 +110,8 @@ impl Pager {
                     MapError::NotADepth { texel, value },
                 ));
             }
+            let name = || format!("channel Z at texel {}, {}", texel.x, texel.y);
+            let value = self.nearest.check(value, name)?;
             Ok(if value < NO_SURFACE { value } else { f32::INFINITY })
         });
         depths.collect()

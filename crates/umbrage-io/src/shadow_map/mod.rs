@@ -8,6 +8,7 @@
 
 mod layout;
 mod matrices;
+mod nearest;
 mod read;
 mod text;
 mod write;
@@ -18,6 +19,7 @@ use std::path::Path;
 use umbrage_depth::{DepthMap, Raw};
 
 pub(crate) use layout::{Layout, MOST_BYTES_PER_BYTE};
+pub(crate) use nearest::Nearest;
 pub(crate) use read::{Preface, check_digest};
 pub(crate) use text::{digest, of_map as comments};
 pub(crate) use write::{attributes, channel, display, stored_window};

@@ -1,4 +1,4 @@
-use super::{Layout, matrices, text};
+use super::{Layout, Nearest, matrices, text};
 use crate::error::Fault;
 use exr::meta::MetaData;
 use exr::meta::header::Header;
@@ -75,11 +75,14 @@ pub(crate) fn decode(bytes: &[u8], most_texels: u64) -> Result<(View, Stored, Ve
     let mut depths: Vec<f32> = Vec::new();
     depths.try_reserve_exact(texels).map_err(|full| Fault::new("displayWindow", texels, full))?;
     depths.resize(texels, f32::INFINITY);
+    let nearest = Nearest::of(&file.view, file.digest);
     for (index, offset) in file.offsets.into_iter().enumerate() {
         let samples = file.layout.samples(&file.meta, &bytes[offset as usize..], index, offset)?;
         let area = file.layout.area(index);
         for (texel, sample) in area.texels().zip(samples.as_chunks::<4>().0) {
-            depths[texel.y as usize * size.x as usize + texel.x as usize] = f32::from_ne_bytes(*sample);
+            let depth = nearest
+                .check(f32::from_ne_bytes(*sample), || format!("channel Z at texel {}, {}", texel.x, texel.y))?;
+            depths[texel.y as usize * size.x as usize + texel.x as usize] = depth;
         }
     }
     check_digest(file.digest, text::digest(&file.view, file.stored, depths.iter().copied()))?;

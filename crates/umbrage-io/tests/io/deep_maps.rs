@@ -27,7 +27,9 @@ pub(crate) fn deep(view: &View, epsilon: f32, grey: bool) -> DeepMap {
         let mut passes = Vec3::ONE;
         let steps = (0..count).map(|step| {
             passes *= Vec3::from_array([0, 1, 2].map(|channel| share(step, channel)));
-            Step { depth: 1.0 / 3.0 + step as f32 * 1.1 + share(step, 3), passes }
+            // Behind the near plane, as surfaces are.
+            let near = view.near().max(0.0) as f32;
+            Step { depth: near + 1.0 / 3.0 + step as f32 * 1.1 + share(step, 3), passes }
         });
         // Bounds of every size cut at full opacity, or nothing would be left to compress.
         steps.take_while(|step| step.passes != Vec3::ZERO).collect()
@@ -210,7 +212,9 @@ fn foreign_samples_are_sorted_and_merged() {
     assert!((near.passes - second).abs().max_element() < 1e-6 && (far.passes - all).abs().max_element() < 1e-6);
     for (at, value, expected) in [
         (depths, f32::NAN, "channel Z is NaN: not a depth"),
+        (depths, -1000.0, "channel Z is -1000: before the near plane at "),
         (depths - 12, 1.5, "channel A is 1.5: not an opacity"),
+        (depths - 12, 1.001, "channel A is 1.001: not an opacity"),
         (depths - 16, f32::NAN, "channel A is NaN: not an opacity"),
     ] {
         let mut bytes = bytes.clone();
@@ -218,6 +222,22 @@ fn foreign_samples_are_sorted_and_merged() {
         let message = decode_deep_map(&bytes, DEFAULT_DEEP_BUDGET).expect_err(expected).to_string();
         assert!(message.starts_with("block 0, 0 at byte ") && message.contains(expected), "{message}");
     }
+}
+
+/// A sum of opacities that is rounded past 1 or 0 is no fault.
+#[test]
+fn foreign_opacities_may_be_rounded_past_their_ends() {
+    let texel = vec![step(1.23, 0.91), step(2.34, 0.73)];
+    let bytes = foreign(&DeepMap::new(sun(UVec2::ONE), 0.0, [texel]).expect("valid"));
+    let opacities = bytes.len() - 24;
+    let read = |first: f32| {
+        let mut bytes = bytes.clone();
+        bytes[opacities..opacities + 4].copy_from_slice(&first.to_le_bytes());
+        let map = decode_deep_map(&bytes, DEFAULT_DEEP_BUDGET).expect("read");
+        map.steps(IVec2::ZERO).first().map(|step| step.passes)
+    };
+    assert_eq!(read(1.000_000_1), Some(Vec3::ZERO));
+    assert!(read(-1e-7).is_none_or(|passes| passes.abs_diff_eq(Vec3::ONE, 1e-6) || passes.x < 1.0));
 }
 
 proptest! {

@@ -1,7 +1,7 @@
 use crate::{folder, map, spot, sun, views};
 use ::exr::prelude as exr;
 use ::exr::prelude::{ReadChannels as _, ReadLayers as _};
-use glam::{DVec3, DVec4, Mat4, UVec2};
+use glam::{DVec3, DVec4, IVec2, Mat4, UVec2};
 use proptest::prelude::*;
 use umbrage_depth::{Bbox, DepthMap, Raw, Tiled};
 use umbrage_io::{DEFAULT_BUDGET, decode_shadow_map, encode_shadow_map, read_shadow_map, write_shadow_map};
@@ -103,10 +103,16 @@ fn other_tools_find_what_the_convention_promises() {
 
 /// As another tool would write it: scan lines, no text of ours, the data window off the origin like the display window.
 pub(crate) fn foreign(view: &View, blocks: exr::Blocks, compression: exr::Compression) -> Vec<u8> {
-    let ours = encode_shadow_map(&map(view)).expect("written");
+    foreign_of(&map(view), blocks, compression)
+}
+
+/// The same with any depths.
+pub(crate) fn foreign_of(map: &Raw, blocks: exr::Blocks, compression: exr::Compression) -> Vec<u8> {
+    let view = map.view();
+    let ours = encode_shadow_map(map).expect("written");
     let meta = exr::MetaData::read_from_buffered(ours.as_slice(), true).expect("ours");
     let size = exr::Vec2(view.size().x as usize, view.size().y as usize);
-    let depths = map(view).depths().to_vec();
+    let depths = map.depths().to_vec();
     let attributes = exr::LayerAttributes {
         comments: Some(exr::Text::from("by hand")),
         software_name: None,
@@ -149,6 +155,39 @@ fn foreign_files_are_read_from_their_matrices() {
             assert!((scale(&found) / scale(&view) - 1.0).length() < 1e-5);
             assert!((found.near() - view.near()).abs() < 1e-4 && (found.far() - view.far()).abs() < 1e-4);
         }
+    }
+}
+
+/// 0 or less for a background, and whatever else lies before the near plane: no surface can have made it.
+#[test]
+fn foreign_depths_before_the_near_plane_are_refused_by_texel_and_value() {
+    use exr::{Blocks, Compression};
+    for view in [spot(UVec2::new(45, 33)), sun(UVec2::new(45, 33))] {
+        let with = |depth: f32| {
+            let mut depths = map(&view).depths().to_vec();
+            depths[45 * 12 + 16] = depth;
+            Raw::new(view, depths).expect("a map")
+        };
+        let read = |depth: f32| {
+            let bytes = foreign_of(&with(depth), Blocks::ScanLines, Compression::ZIP16);
+            decode_shadow_map(&bytes, DEFAULT_BUDGET).map(|map| map.depth(IVec2::new(16, 12)))
+        };
+        let before = if view.is_perspective() {
+            vec![0.0, -1.0, -0.0, 0.5 * view.near() as f32]
+        } else {
+            vec![view.near() as f32 - 5.0]
+        };
+        for depth in before {
+            let message = read(depth).expect_err("refused").to_string();
+            let expected = format!("channel Z at texel 16, 12 is {depth}: before the near plane at ");
+            assert!(message.starts_with(&expected) && !message.contains('\n'), "{message}");
+        }
+        for depth in [view.near() as f32, view.near() as f32 + 1.0, f32::INFINITY] {
+            assert_eq!(read(depth).expect("read"), depth);
+        }
+        // Ours are what was written, whatever that was.
+        let ours = encode_shadow_map(&with(0.25)).expect("written");
+        assert_eq!(decode_shadow_map(&ours, DEFAULT_BUDGET).expect("read").depth(IVec2::new(16, 12)), 0.25);
     }
 }
 
