@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use std::cmp::Ordering;
 use umbrage_depth::{DeepMap, MapError, Step, compress_steps};
 use umbrage_plane::{Facet, TexelRect, View};
-use umbrage_raster::{BIN, Bins, Cull, each_fragment};
+use umbrage_raster::{BIN, Bins, Cull, Stats, each_fragment};
 
 /// How a deep map is made (B06-11, EXT-2, EXT-3).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,13 +74,22 @@ struct Moment {
     passes: Vec<Vec3>,
 }
 
+/// A deep map, and what became of the triangles of all moments.
+#[derive(Clone, Debug)]
+pub struct BakedDeep {
+    /// The map.
+    pub map: DeepMap,
+    /// What the rasteriser did with the triangles, summed over the moments.
+    pub stats: Stats,
+}
+
 /// Pass 1 of deep maps: a texel's transmittance is the mean over its samples and over the moments of an exposure of what all surfaces
 /// before a depth let through together ([`Caster::passes`]; B06-11, EXT-2, EXT-3).
 ///
 /// `moments` are the triangles at evenly spread times, one of them for what is at rest; none gives an empty map. What is nearer than the near plane stands at it (C-10). The result
 /// does not depend on the number of threads. Maps too large for the samples, which are one grid of at most 32,768 a side, get as many as fit.
 #[expect(clippy::missing_panics_doc, reason = "a view has at most 32,768 texels a side, and as many samples as fit")]
-pub fn bake_deep<M>(view: &View, moments: impl IntoIterator<Item = M>, deep: &Deep) -> DeepMap
+pub fn bake_deep<M>(view: &View, moments: impl IntoIterator<Item = M>, deep: &Deep) -> BakedDeep
 where
     M: IntoIterator<Item: Into<Caster>>,
 {
@@ -101,7 +110,10 @@ where
         let tile = &tiles[(tile.y * grid.x + tile.x) as usize];
         tile.get((at.y * side + at.x) as usize).cloned().unwrap_or_default()
     });
-    DeepMap::new(*view, deep.epsilon, steps).expect("steps were made in order")
+    let map = DeepMap::new(*view, deep.epsilon, steps).expect("steps were made in order");
+    let mut stats = Stats::default();
+    moments.iter().for_each(|moment| stats += moment.bins.stats());
+    BakedDeep { map, stats }
 }
 
 impl Moment {

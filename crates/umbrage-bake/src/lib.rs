@@ -33,7 +33,7 @@
 //!
 //! // The same pane in red glass: a deep map keeps what passes it.
 //! let red = Caster::from(pane).with_passes(Vec3::new(0.9, 0.1, 0.1));
-//! let deep = bake_deep(&lamp, [[red]], &Deep::default());
+//! let deep = bake_deep(&lamp, [[red]], &Deep::default()).map;
 //! assert_eq!(deep.transmittance(IVec2::splat(32), 5.0), Vec3::new(0.9, 0.1, 0.1));
 //! # Ok::<(), umbrage_plane::ViewError>(())
 //! ```
@@ -50,7 +50,7 @@ mod pass1;
 mod tags;
 
 pub use caster::Caster;
-pub use deep::{Deep, bake_deep};
+pub use deep::{BakedDeep, Deep, bake_deep};
 pub use moments::mix_moments;
 pub use normals::bake_by_normals;
 pub use pass1::{Baked, advised_map_sizes, bake, bake_multi};

@@ -111,6 +111,42 @@ pub struct Stats {
     pub too_near: u64,
 }
 
+impl std::ops::AddAssign for Stats {
+    /// Of two sets of triangles.
+    fn add_assign(&mut self, other: Self) {
+        self.given += other.given;
+        self.not_finite += other.not_finite;
+        self.zero_area += other.zero_area;
+        self.culled += other.culled;
+        self.outside += other.outside;
+        self.missed += other.missed;
+        self.clipped += other.clipped;
+        self.before_near += other.before_near;
+        self.too_near += other.too_near;
+    }
+}
+
+impl std::fmt::Display for Stats {
+    /// One line: how many were given and kept, then what became of the others and what happened to some, where it did.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} triangles, {} drawn", self.given, self.kept())?;
+        let parts = [
+            (self.not_finite, "skipped for a coordinate that is not finite"),
+            (self.zero_area, "without area"),
+            (self.culled, "culled by facing"),
+            (self.outside, "outside the view"),
+            (self.missed, "too small for a sample"),
+            (self.clipped, "cut at the view's limits"),
+            (self.before_near, "nearer than the near plane and stored at it"),
+            (
+                self.too_near,
+                "so near to the light that a part is lost, and with it its shadow: bring the near plane nearer",
+            ),
+        ];
+        parts.iter().filter(|(count, _)| *count > 0).try_for_each(|(count, what)| write!(f, "; {count} {what}"))
+    }
+}
+
 impl Stats {
     /// Triangles that were sorted into tiles.
     pub fn kept(&self) -> u64 {

@@ -2,35 +2,43 @@
 
 use crate::values::{Rule, Values};
 use std::sync::Arc;
-use umbrage_bake::{Caster, bake, bake_by_normals, bake_deep, bake_multi, mix_moments};
+use umbrage_bake::{Baked, Caster, bake, bake_by_normals, bake_deep, bake_multi, mix_moments};
 use umbrage_depth::{BackFace, DepthRule, First, Map, Second, Tiled};
 use umbrage_plane::View;
-use umbrage_raster::{Cull, Triangle};
+use umbrage_raster::{Cull, Stats, Triangle};
 
 /// The triangles of one moment.
 pub(crate) type Moment<'a> = Box<dyn Iterator<Item = Caster> + 'a>;
 
 impl Values {
     /// `moments` are at evenly spread times: deep maps hold their mean, and of rules that keep one surface each texel sees one of them.
-    pub fn bake(&self, view: &View, moments: &mut dyn Iterator<Item = Moment<'_>>) -> Map {
+    pub fn bake(&self, view: &View, moments: &mut dyn Iterator<Item = Moment<'_>>) -> (Map, Stats) {
         if self.rule == Rule::Deep {
             let deep = self.sub_samples.map_or(self.deep, |axis| self.deep.with_axis(axis));
-            return bake_deep(view, moments, &deep).into();
+            let baked = bake_deep(view, moments, &deep);
+            return (baked.map.into(), baked.stats);
         }
-        let mut maps: Vec<Arc<Tiled>> = moments.map(|moment| self.flat(view, moment)).collect();
-        match (maps.len(), maps.pop()) {
+        let mut stats = Stats::default();
+        let one = |moment| {
+            let baked = self.flat(view, moment);
+            stats += baked.stats;
+            baked.map
+        };
+        let mut maps: Vec<Arc<Tiled>> = moments.map(one).collect();
+        let map = match (maps.len(), maps.pop()) {
             (1, Some(map)) => map.into(),
             (_, last) => {
                 maps.extend(last);
                 mix_moments(view, &maps, 0).with_stored(self.rule.stored()).into()
             }
-        }
+        };
+        (map, stats)
     }
 
     /// One surface per texel.
-    fn flat(&self, view: &View, casters: Moment<'_>) -> Arc<Tiled> {
+    fn flat(&self, view: &View, casters: Moment<'_>) -> Baked {
         if self.rule == Rule::Normals {
-            return bake_by_normals(view, casters, &BackFace).map;
+            return bake_by_normals(view, casters, &BackFace);
         }
         let triangles = casters.map(|caster| caster.triangle);
         match self.rule {
@@ -48,11 +56,11 @@ impl Values {
         triangles: impl Iterator<Item = Triangle>,
         rule: &R,
         cull: Cull,
-    ) -> Arc<Tiled> {
+    ) -> Baked {
         let axis = self.sub_samples.unwrap_or(1);
         if axis > 1 && view.with_size(view.size().saturating_mul([axis; 2].into())).is_ok() {
-            return bake_multi(view, triangles, rule, cull, axis).expect("as many samples as fit").map;
+            return bake_multi(view, triangles, rule, cull, axis).expect("as many samples as fit");
         }
-        bake(view, triangles, rule, cull).map
+        bake(view, triangles, rule, cull)
     }
 }

@@ -4,6 +4,7 @@ use crate::{PresetName, RecipeError, kind};
 use umbrage_bake::Caster;
 use umbrage_depth::{DepthMap, Map, Storage, Stored};
 use umbrage_plane::View;
+use umbrage_raster::Stats;
 use umbrage_shadow::Shadow;
 
 /// A shadow algorithm by name, as people write it: a preset and what differs from it, such as
@@ -92,6 +93,15 @@ impl Recipe {
     /// The same over an exposure, `moments` being the triangles at evenly spread times: deep maps hold the mean of them; of maps of one
     /// surface each texel sees one of them. An empty map of none.
     pub fn bake_moments<M>(&self, view: &View, moments: impl IntoIterator<Item = M>) -> Map
+    where
+        M: IntoIterator<Item: Into<Caster>>,
+    {
+        self.bake_counted(view, moments).0
+    }
+
+    /// [`Recipe::bake_moments`], and what became of the triangles of all moments: how many were skipped, lay outside the view, or
+    /// lost a part, and with it its shadow, for standing too near to the light. Its `Display` is one line for people.
+    pub fn bake_counted<M>(&self, view: &View, moments: impl IntoIterator<Item = M>) -> (Map, Stats)
     where
         M: IntoIterator<Item: Into<Caster>>,
     {

@@ -98,3 +98,30 @@ fn deep_recipes_take_opacity_and_colour_and_normals_take_normals() {
     let map = by_normals.bake(&lamp(), turned);
     assert_eq!(map.depth(glam::IVec2::splat(32)), 15.0, "all face away, so that the nearest counts");
 }
+
+#[test]
+fn what_became_of_the_triangles_reaches_the_caller() {
+    // A lamp in a closed shell whose walls are nearer than 1/1024 of the near distance below the lamp, a triangle without
+    // area, one that is not finite, one far aside.
+    let lamp = View::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 2.0, 10.0, 100.0, UVec2::splat(64)).unwrap();
+    let triangle = |corners: [[f32; 3]; 3]| Triangle::new(corners.map(Vec3::from), 0, false);
+    let shell = triangle([[-1.0, -0.001, -0.005], [1.0, -0.001, -0.005], [0.0, -0.001, -40.0]]);
+    let flat = triangle([[0.0, 0.0, -20.0]; 3]);
+    let broken = triangle([[f32::NAN, 0.0, -20.0], [1.0, 0.0, -20.0], [0.0, 1.0, -20.0]]);
+    let aside = triangle([[500.0, 0.0, -20.0], [501.0, 0.0, -20.0], [500.0, 1.0, -20.0]]);
+    let whole = triangle([[-5.0, -5.0, -20.0], [5.0, -5.0, -20.0], [0.0, 5.0, -20.0]]);
+    for text in ["reeves87", "woo92", "wang-molnar94,stored=second", "burley,stored=deep", "burley,stored=normals"] {
+        let moment = [shell, flat, broken, aside, whole];
+        let (map, stats) = recipe(text).bake_counted(&lamp, [moment]);
+        assert_eq!((stats.given, stats.not_finite, stats.zero_area, stats.outside), (5, 1, 1, 1), "{text}: {stats}");
+        assert_eq!((stats.kept(), stats.too_near, stats.before_near), (2, 1, 1), "{text}: {stats}");
+        assert_eq!(map.view(), &lamp, "{text}");
+        let twice = recipe(text).bake_counted(&lamp, [moment, moment]).1;
+        assert_eq!((twice.given, twice.too_near), (10, 2), "{text}: every moment counts");
+        let line = stats.to_string();
+        assert!(
+            line.starts_with("5 triangles, 2 drawn; 1 skipped") && line.ends_with("bring the near plane nearer"),
+            "{line}"
+        );
+    }
+}

@@ -39,5 +39,5 @@ pub fn expose<M: DepthMap>(view: &View, moments: &[&Scene], seed: u32, bake: imp
 /// # Panics
 /// As [`Soup::casters`].
 pub fn expose_deep(view: &View, moments: &[&Scene], deep: &Deep) -> DeepMap {
-    bake_deep(view, moments.iter().map(|scene| Soup::casters(scene, view).into_casting()), deep)
+    bake_deep(view, moments.iter().map(|scene| Soup::casters(scene, view).into_casting()), deep).map
 }

@@ -30,7 +30,7 @@ fn lossless(axis: u32) -> Deep {
 fn v56_b06_11_light_is_multiplied_from_surface_to_surface() {
     let colours = [Vec3::new(0.8, 0.4, 0.2), Vec3::splat(0.5), Vec3::ZERO];
     let stack = [sheet(30.0, -16.0, colours[0]), sheet(20.0, -16.0, colours[1]), sheet(0.0, 0.0, colours[2])];
-    let map = bake_deep(&above(), [stack.concat()], &lossless(2));
+    let map = bake_deep(&above(), [stack.concat()], &lossless(2)).map;
     let eye = map.view().depth(map.view().world_to_eye().transform_point3(DVec3::ZERO));
     let behind = |texel, height: f32| map.transmittance(texel, eye - height);
     let (left, right) = (IVec2::new(10, 30), IVec2::new(50, 30));
@@ -48,13 +48,14 @@ fn what_passes_is_each_triangle_s_own_and_is_kept_within_0_and_1() {
     let behind = |passes: [f32; 2]| {
         let [below, over] = flat(10.0, -16.0, 0).map(Caster::from);
         let halves = [below.with_passes(Vec3::splat(passes[0])), over.with_passes(Vec3::splat(passes[1]))];
-        let map = bake_deep(&above(), [halves], &lossless(1));
+        let map = bake_deep(&above(), [halves], &lossless(1)).map;
         [IVec2::new(50, 55), IVec2::new(10, 5)].map(|texel| map.transmittance(texel, f32::INFINITY).x)
     };
     assert_eq!(behind([0.5, 0.25]), [0.5, 0.25]);
     assert_eq!(behind([7.0, -1.0]), [1.0, 0.0]);
     assert_eq!(behind([f32::NAN, 1.0]), [0.0, 1.0]);
-    let shade = bake_deep(&above(), [flat(10.0, -16.0, 0).map(|t| Caster::from(t).with_opacity(0.75))], &lossless(1));
+    let shade =
+        bake_deep(&above(), [flat(10.0, -16.0, 0).map(|t| Caster::from(t).with_opacity(0.75))], &lossless(1)).map;
     assert_eq!(shade.transmittance(IVec2::ONE, f32::INFINITY), Vec3::splat(0.25));
 }
 
@@ -66,7 +67,7 @@ fn the_order_of_triangles_changes_no_bit_of_a_deep_map() {
         .iter()
         .flat_map(|&(object, passes)| flat(10.0, -3.3, object).map(|t| Caster::from(t).with_passes(passes)))
         .collect();
-    let map = |order: &[usize]| bake_deep(&above(), [order.iter().map(|&i| sheets[i])], &Deep::default());
+    let map = |order: &[usize]| bake_deep(&above(), [order.iter().map(|&i| sheets[i])], &Deep::default()).map;
     let forward = map(&[0, 1, 2, 3, 4, 5]);
     for order in [[5, 4, 3, 2, 1, 0], [2, 3, 0, 1, 4, 5], [4, 1, 2, 0, 5, 3]] {
         assert_eq!(map(&order), forward);
@@ -79,7 +80,7 @@ fn a_deep_map_of_opaque_things_is_the_first_depth() {
     let mut things = cuboid(Vec3::new(-12.0, -12.0, -2.0), Vec3::new(12.0, 12.0, 0.0), 0, false);
     things.extend(ball(Vec3::new(2.0, 1.0, 8.0), 6.0, 12, 1).into_iter().map(|(triangle, _)| triangle));
     let first = bake(&view, things.iter().copied(), &First, Cull::None).map;
-    let deep = bake_deep(&view, [things], &lossless(1));
+    let deep = bake_deep(&view, [things], &lossless(1)).map;
     for texel in TexelRect::of_size(view.size()).texels() {
         assert_eq!(deep.depth(texel), first.depth(texel), "{texel}");
         assert!(deep.steps(texel).iter().all(|step| step.passes == Vec3::ZERO), "{texel}");
@@ -89,7 +90,7 @@ fn a_deep_map_of_opaque_things_is_the_first_depth() {
 #[test]
 fn ext_3_half_a_texel_under_a_sheet_is_half_dark() {
     // The sheet's edge runs through the middle of column 32.
-    let map = bake_deep(&above(), [sheet(10.0, 0.25, Vec3::ZERO)], &lossless(4));
+    let map = bake_deep(&above(), [sheet(10.0, 0.25, Vec3::ZERO)], &lossless(4)).map;
     let light_behind = |x| map.transmittance(IVec2::new(x, 20), f32::INFINITY).x;
     assert_eq!([31, 32, 33].map(light_behind), [1.0, 0.5, 0.0]);
 }
@@ -98,10 +99,10 @@ fn ext_3_half_a_texel_under_a_sheet_is_half_dark() {
 fn ext_2_moments_share_the_light_between_them() {
     let view = above();
     let moments: Vec<[Triangle; 2]> = (0..4u8).map(|i| flat(10.0, f32::from(i) * 4.0, 0)).collect();
-    let map = bake_deep(&view, moments.iter().copied(), &lossless(1));
+    let map = bake_deep(&view, moments.iter().copied(), &lossless(1)).map;
     let light_behind = |world: f32| map.transmittance(IVec2::new(((world + 16.0) * 2.0) as i32, 9), 1e9).x;
     assert_eq!([-1.0, 1.0, 5.0, 9.0, 13.0].map(light_behind), [1.0, 0.75, 0.5, 0.25, 0.0]);
-    let none = bake_deep(&view, Vec::<[Caster; 1]>::new(), &lossless(1));
+    let none = bake_deep(&view, Vec::<[Caster; 1]>::new(), &lossless(1)).map;
     assert!(TexelRect::of_size(view.size()).texels().all(|texel| none.steps(texel).is_empty()));
     // A single depth per texel sees each moment in its own fraction of the texels.
     let maps: Vec<_> = moments.iter().map(|moment| bake(&view, *moment, &First, Cull::None).map).collect();
@@ -127,7 +128,7 @@ fn threads_change_no_bit_of_a_deep_map() {
         .collect();
     let with = |threads: usize| -> DeepMap {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| bake_deep(&view, [glass.iter().copied()], &Deep::default()))
+        pool.install(|| bake_deep(&view, [glass.iter().copied()], &Deep::default()).map)
     };
     assert_eq!(with(1), with(3));
 }
@@ -144,7 +145,7 @@ fn depths_that_are_none_are_no_surfaces_of_a_deep_map() {
     let far = 9e29f32;
     let corners = [Vec3::new(far, far, 0.0), Vec3::new(far, 0.0, far), Vec3::new(0.0, far, far), Vec3::splat(far)];
     let view = View::orthographic(DVec3::ZERO, DVec3::ONE, DVec3::Y, 1e30, 0.0, 1e31, UVec2::splat(16)).unwrap();
-    let map = bake_deep(&view, [quad(corners, 0, true)], &lossless(1));
+    let map = bake_deep(&view, [quad(corners, 0, true)], &lossless(1)).map;
     for texel in TexelRect::of_size(view.size()).texels() {
         assert!(map.steps(texel).iter().all(|step| step.depth < 1e30), "{texel}");
     }
