@@ -1,8 +1,8 @@
-//! A plane with nothing over it is lit: whatever looks around the receiver looks around the point whose depth it compares.
+//! Planes: one with nothing over it is lit: whatever looks around the receiver looks around the point whose depth it compares.
 
 use glam::{DQuat, DVec2, DVec3, UVec2, Vec3};
 use umbrage_depth::Storage;
-use umbrage_plane::{Kind, SurfacePoint, View};
+use umbrage_plane::{Kind, SurfacePoint, View, cube_views};
 use umbrage_raster::Triangle;
 use umbrage_recipe::Recipe;
 use umbrage_sample::Key;
@@ -105,5 +105,24 @@ fn an_empty_plane_is_lit_by_every_preset_within_its_limits() {
     // A constant bias holds as far as the plane rises over what is looked at.
     for recipe in ["reeves87,bias=4", "ordinary,bias=4", "fernando,bias=4", "williams78,bias=0.2"] {
         assert_eq!(worst(recipe, &ALL, 1.9), 0.0, "{recipe}");
+    }
+}
+
+/// As truth has it: a surface that holds the light blocks none of it, on either side. It is edge-on from the light and covers no texel.
+#[test]
+fn a_sheet_that_holds_the_light_leaves_maps_empty() {
+    for (degrees, about) in [(0.0, 0.0), (90.0, 0.0)] {
+        let sheet = Sheet::tilted(degrees, about);
+        for view in cube_views(DVec3::ZERO, 0.1, 99.0, 64).unwrap() {
+            for text in ["reeves87", "wang-molnar94,stored=second", "woo92"] {
+                let recipe: Recipe = text.parse().unwrap();
+                let (map, stats) = recipe.bake_counted(&view, [sheet.triangles()]);
+                let shadow = recipe.bind(map, Storage::Tiled).unwrap();
+                for at in [DVec3::new(4.0, 2.0, -3.0), DVec3::new(-3.0, -4.0, 2.0), DVec3::new(0.2, -5.0, 0.3)] {
+                    let point = SurfacePoint::at(at, (-at).normalize().as_vec3());
+                    assert_eq!(shadow.fraction(&point, Key::new(1, 0, 0)), 0.0, "{text} {at} {stats}");
+                }
+            }
+        }
     }
 }

@@ -77,7 +77,8 @@ impl<F: Filter> Preset<F> {
 
 /// Williams 1978: nearest texel, no dither, two quanta of 16-bit depth (W78-2, W78-11, W78-12).
 ///
-/// The bias is in units of the stored numbers, so that it suits a map of 16-bit screen depth only; the historical size is 512² in both
+/// The bias is a fraction of the range from near to far plane in screen depth, two steps of 16 bits, in whatever kind of depth the map
+/// is: it grows with the square of the distance, and suits a range that closely holds the scene. The historical size is 512² in both
 /// views. Edges are as coarse as the map's texels.
 pub fn williams78() -> Preset<Williams> {
     Preset { name: "williams78", filter: Williams::default(), expects: &[Stored::First] }
@@ -106,7 +107,8 @@ pub fn ordinary(bias: Bias) -> Preset<Pcf<Centre>> {
 /// Woo 1992: the listing of 1987 without any bias, over a map of midpoints (W92-3, W92-5, W92-8).
 ///
 /// Meant for a spot light with [`Rules::SPOT`](umbrage_plane::Rules::SPOT), which are Woo's rule of the cone (W92-6); the paper's map is 256²
-/// under 75°. Solids thinner than a texel's own step of depth shadow themselves.
+/// under 75°. Solids thinner than a texel's own step of depth shadow themselves, and so does whatever another surface lies close
+/// behind: a rug on a floor, a floor that is drawn twice, boxes that touch along a seam.
 pub fn woo92() -> Preset<Pcf> {
     let filter = Pcf::default().with_depth(Biased::constant(Bias::ZERO));
     Preset { name: "woo92", filter, expects: &[Stored::Midpoint] }
