@@ -113,7 +113,7 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         let found = u8::from(least.1.1 > 0.5);
         measures.push(
             Measure::exactly(
-                &format!("{name}: no bias serves both floor and foot (1 yes; D-10)"),
+                &format!("{name}: no bias serves both floor and foot (D-10)"),
                 f64::from(found),
                 "",
                 f64::from(u8::from(hopeless)),

@@ -171,7 +171,7 @@ fn cost(cx: &Context) -> anyhow::Result<Made> {
     }
     if !cx.quick {
         let within = f64::from(u8::from((0.7..=1.3).contains(&(seconds[1] / seconds[0]))));
-        let measure = "all three: time of pass 1, second depths over first, each culled, within .7 to 1.3 (1: yes)";
+        let measure = "all three: time of pass 1, second depths over first, each culled, within .7 to 1.3";
         made.measures.push(Measure::exactly(measure, within, "", 1.0));
     }
     let head = [
