@@ -120,8 +120,8 @@ impl Scene {
     ///
     /// What the light lights does not change. A light that shines alike in all directions is turned toward its casters. One
     /// with a cone or a tree keeps its axis, and its map is the part of the view that holds the casters within its cone;
-    /// beyond that part nothing casts, so that all is lit there as far as the cone goes. A light whose only limit are its map's sides, beyond which all is
-    /// dark ([`Rules::outside`](umbrage_plane::Rules)), keeps them.
+    /// beyond that part nothing casts, so that all is lit there as far as the cone goes. A light whose only limits are its
+    /// map's sides, beyond which all is dark ([`Rules::outside`](umbrage_plane::Rules)), keeps them.
     ///
     /// # Errors
     /// [`FrameError`].
@@ -215,12 +215,12 @@ fn ball(points: impl Iterator<Item = DVec3>) -> Option<Ball> {
     Ball::around(&points.collect::<Vec<_>>())
 }
 
-/// `light` turned toward a ball and closed in around it: full angle 2·asin(R/d) over both sides of the map, near plane at d − R, far plane
-/// at d + R (V66). Parallel light keeps its direction.
+/// `light` turned toward a ball and closed in around it: full angle 2·asin(R/d) over both sides of the map, near plane at
+/// d − R, far plane at d + R (V66). Parallel light keeps its direction.
 ///
 /// # Errors
-/// [`FrameError::Aimed`] for a view with a cone, which would be turned along; [`FrameError::Inside`] when a light in perspective stands within the ball;
-/// [`FrameError::View`] for a ball without extent.
+/// [`FrameError::Aimed`] for a view with a cone, which would be turned along; [`FrameError::Inside`] when a light in
+/// perspective stands within the ball; [`FrameError::View`] for a ball without extent.
 pub fn fit(light: &View, ball: Ball) -> Result<View, FrameError> {
     // Texels need not be square: the ball touches all sides.
     let square = UVec2::ONE;
