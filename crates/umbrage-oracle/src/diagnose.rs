@@ -2,16 +2,22 @@
 
 use crate::predict::{float_step, severe_perspective};
 use crate::thin::{stacked, too_thin};
-use crate::{Diagnostic, Plan};
+use crate::{Body, Diagnostic, Face, Geometry, Plan};
+use glam::DVec3;
 use umbrage_depth::Stored;
 use umbrage_plane::{Kind, View};
-use umbrage_scene::{Ball, Light, Scene, Shape};
+use umbrage_recipe::Recipe;
+use umbrage_scene::{Ball, Light, Object, Scene, Shape};
 
-impl Default for Plan {
-    /// Float depth of the first surface with Reeves' smaller bias.
-    fn default() -> Self {
-        Self { depth_bits: None, bias_world: 0.3, stored: Stored::First, slope: 0.0, filter_half: 0.0 }
-    }
+/// Everything that is known to go wrong with a light of a scene under a recipe, in a fixed order: [`diagnose`] with what the
+/// recipe plans ([`Plan::of`]) at the farthest receiver in the light's range.
+///
+/// # Panics
+/// When the scene's origin is not finite.
+pub fn diagnose_recipe(scene: &Scene, light: &Light, recipe: &Recipe) -> Vec<Diagnostic> {
+    let view = &light.view;
+    let zeta = farthest_receiver(scene, view).unwrap_or_else(|| view.far());
+    diagnose(scene, light, &Plan::of(recipe, view, zeta))
 }
 
 /// Everything that is known to go wrong with a light of a scene, in a fixed order. Lights that do not cast have nothing wrong.
@@ -36,6 +42,7 @@ pub fn diagnose(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
     if plan.depth_bits.is_none() {
         found.extend(farthest.and_then(|farthest| coarse_depth(light, plan.bias_world, farthest)));
     }
+    found.extend(scene.objects.iter().filter_map(|object| enclosed(scene, object, light)));
     found.extend(sizes(scene, light, plan.bias_world));
     if plan.stored == Stored::Midpoint
         && let Some(receiver) = scene.objects.iter().find(|object| object.receives && !object.casts)
@@ -58,6 +65,28 @@ pub fn diagnose(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
     found.extend(scene.objects.iter().filter_map(|object| too_thin(scene, object, light, plan)));
     found.extend(stacked(scene, light, plan));
     found
+}
+
+/// Whether a light in perspective stands inside a closed caster: a ray that leaves it crosses the wall an odd number of times.
+fn enclosed(scene: &Scene, object: &Object, light: &Light) -> Option<Diagnostic> {
+    let view = &scene.about_origin(&light.view);
+    if !(object.casts && object.solid && view.is_perspective()) {
+        return None;
+    }
+    let mesh = object.shape.mesh_for(view);
+    let faces = (0..mesh.triangles.len()).map(|triangle| Face { corners: mesh.corners(triangle), object: 0 });
+    let body = Geometry::from_faces(faces.collect(), vec![Body::default()]);
+    let eye = view.light().truncate();
+    // Off every axis, so that no ray runs along an edge of a box; three, so that one that meets an edge is outvoted.
+    let ways = [DVec3::new(0.31, 0.59, 0.74), DVec3::new(-0.83, 0.17, 0.53), DVec3::new(0.23, -0.71, -0.67)];
+    let odd = ways.iter().filter(|way| body.hits(eye, **way).len() % 2 == 1).count();
+    if odd < 2 {
+        return None;
+    }
+    let distances = mesh.positions.iter().map(|at| -view.world_to_eye().transform_point3(at.as_dvec3()).z);
+    let nearest = distances.filter(|zeta| *zeta > 0.0).fold(f64::INFINITY, f64::min);
+    let cut = nearest < view.near() / 1024.0;
+    Some(Diagnostic::Enclosed { light: light.name.clone(), object: object.name.clone(), nearest, cut })
 }
 
 /// Whether floats are fine enough at the farthest receiver, in the map's kind of depth or in another.

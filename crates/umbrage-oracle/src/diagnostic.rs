@@ -1,4 +1,3 @@
-use umbrage_depth::Stored;
 use umbrage_plane::Kind;
 
 /// Something about a light and a scene that will show in the picture.
@@ -51,6 +50,22 @@ pub enum Diagnostic {
         bias: f64,
         /// The kind that rounds to no more than half the bias, if there is one.
         better: Option<Kind>,
+    },
+    /// The light stands inside a closed caster, a bulb or a shade: all that is outside of it is in its shadow, or, where its wall is
+    /// nearer than 1/1024 of the near distance, lit through the hole that the near plane cuts.
+    #[error(
+        "light {light:?} stands inside the closed object {object:?}, whose nearest corner in front of it is at {nearest}: {}, so let the          object not cast",
+        if *cut { "the near plane cuts a hole into it" } else { "everything outside is in its shadow" }
+    )]
+    Enclosed {
+        /// The light's name.
+        light: String,
+        /// The object around it.
+        object: String,
+        /// Axial distance of the nearest of its corners in front of the light, world units.
+        nearest: f64,
+        /// Whether a corner is nearer than 1/1024 of the near distance, where triangles are cut off.
+        cut: bool,
     },
     /// Casters are smaller than a texel where they are: they are met by chance, and their shadows come and go.
     #[error(
@@ -151,20 +166,4 @@ fn mend(better: Option<Kind>) -> String {
         Some(kind) => format!("{kind:?} depth is fine enough"),
         None => "no kind is fine enough: bring the light nearer, or raise the near plane or the bias".into(),
     }
-}
-
-/// What a light's map is going to be used for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plan {
-    /// Bits of integer depth; `None` for floats, which have 24.
-    pub depth_bits: Option<u32>,
-    /// The bias, world units.
-    pub bias_world: f64,
-    /// What the map keeps.
-    pub stored: Stored,
-    /// Tangent of the steepest angle between a caster's surface and the map's plane that must be free of error, ≥ 0 (WM94-17).
-    /// 0 does not ask.
-    pub slope: f64,
-    /// Half-extent of the filter, texels.
-    pub filter_half: f64,
 }

@@ -3,7 +3,7 @@ use crate::values::Values;
 use crate::{PresetName, RecipeError, kind};
 use umbrage_bake::Caster;
 use umbrage_depth::{DepthMap, Map, Storage, Stored};
-use umbrage_plane::View;
+use umbrage_plane::{Bias, View};
 use umbrage_raster::Stats;
 use umbrage_shadow::Shadow;
 
@@ -66,6 +66,22 @@ impl Recipe {
     #[must_use]
     pub fn expects(&self) -> Vec<Stored> {
         if self.names_stored { vec![self.stored()] } else { self.preset.expects().to_vec() }
+    }
+
+    /// The bias that every receiver is given at least: the smaller end of a range, the base of a cone.
+    #[must_use]
+    pub fn bias(&self) -> Bias {
+        self.values.biased.low
+    }
+
+    /// Half-extent of the smallest region that the filter looks at, texels; 0 for one texel.
+    #[must_use]
+    pub fn least_half(&self) -> f32 {
+        match self.preset {
+            PresetName::Williams78 | PresetName::Ordinary => 0.0,
+            PresetName::Burley | PresetName::Fernando => 0.5,
+            _ => self.values.min_size,
+        }
     }
 
     /// Pass 1: the map that this recipe wants of a light's view, from triangles each with what it knows of opacity, colour and normals.

@@ -70,7 +70,7 @@ const RULES: &[Rule] = &[
     },
     Rule {
         package: "umbrage-oracle",
-        arrows: &["umbrage-scene", "umbrage-shadow"],
+        arrows: &["umbrage-scene", "umbrage-shadow", "umbrage-recipe"],
         outside: &["glam", "obvhs", "rayon", "thiserror"],
         tests: PROPERTIES,
     },

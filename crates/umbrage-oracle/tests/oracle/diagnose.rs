@@ -3,7 +3,7 @@
 use glam::{DVec3, Mat3, UVec2, Vec3};
 use std::f32::consts::FRAC_PI_4;
 use umbrage_depth::Stored;
-use umbrage_oracle::{Diagnostic, Plan, diagnose};
+use umbrage_oracle::{Diagnostic, Plan, diagnose, diagnose_recipe};
 use umbrage_plane::{Kind, View};
 use umbrage_scene::{Light, Material, Mesh, Object, Scene, Shape, gallery};
 
@@ -256,4 +256,70 @@ fn rugs_duplicates_and_flush_boxes_are_named_where_something_is_stored_between_t
         "a sheet is its own second surface"
     );
     assert_eq!(stacked(vec![tile(-6.0, "box"), tile(-6.0, "again")], midpoint).len(), 2);
+}
+
+/// One call, one table: each scene and recipe with the warning it raises, and what changes it so that it does not.
+#[test]
+fn a_recipe_is_judged_on_a_scene_in_one_call() {
+    let raised = |scene: &Scene, recipe: &str| -> Vec<String> {
+        let found = diagnose_recipe(scene, &scene.lights[0], &recipe.parse().unwrap());
+        // The name of the variant.
+        found.iter().map(|found| format!("{found:?}").split(' ').next().unwrap_or_default().to_string()).collect()
+    };
+    let sound = excluded_plane();
+    for recipe in ["reeves87", "williams78", "woo92", "wang-molnar94", "burley", "fernando", "ordinary"] {
+        assert_eq!(raised(&sound, recipe), [] as [&str; 0], "{recipe}");
+    }
+    let tiny = sound.clone().scaled(1e-4).unwrap();
+    assert_eq!(raised(&tiny, "reeves87"), ["LargeBias"]);
+    assert_eq!(raised(&tiny, "reeves87,bias=3..4t"), [] as [&str; 0], "a bias in texels is the same at any scale");
+    assert_eq!(raised(&tiny, "williams78"), [] as [&str; 0]);
+    let mut wide = sound.clone();
+    let eye = wide.lights[0].view.light().truncate();
+    let spot = View::perspective(
+        eye,
+        DVec3::new(0.0, 0.0, 25.0),
+        DVec3::Y,
+        179.9f64.to_radians(),
+        1.0,
+        400.0,
+        UVec2::splat(1024),
+    );
+    wide.lights[0].view = spot.unwrap();
+    assert!(raised(&wide, "burley").contains(&"CoarseTexels".to_string()));
+    let thin = plate(0.2, true);
+    assert_eq!(raised(&thin, "wang-molnar94"), ["TooThin"]);
+    assert_eq!(raised(&plate(4.0, true), "wang-molnar94"), [] as [&str; 0]);
+    assert_eq!(raised(&thin, "reeves87,bias=0"), [] as [&str; 0], "the nearest surface asks for no thickness");
+    let mut open = sound;
+    open.objects[0].solid = false;
+    assert_eq!(raised(&open, "woo92"), ["VanishedShadow"]);
+    assert_eq!(raised(&open, "wang-molnar94"), [] as [&str; 0]);
+}
+
+#[test]
+fn a_light_inside_a_closed_caster_is_named_and_whether_the_near_plane_cuts_it() {
+    let mut scene = excluded_plane();
+    let eye = scene.lights[0].view.light().truncate();
+    let shell = |half: f32| Mesh::cuboid(eye.as_vec3() - half, eye.as_vec3() + half);
+    let enclosed = |scene: &Scene| {
+        named(scene, &Plan::default()).into_iter().find_map(|found| match found {
+            Diagnostic::Enclosed { object, cut, .. } => Some((object, cut)),
+            _ => None,
+        })
+    };
+    scene.objects.push(Object::solid("bulb", shell(2.0), Material::matt(Vec3::ONE)));
+    assert_eq!(enclosed(&scene), Some(("bulb".into(), false)));
+    scene.objects[2].shape = Shape::Mesh(shell(1e-4));
+    assert_eq!(enclosed(&scene), Some(("bulb".into(), true)), "nearer than 1/1024 of the near plane");
+    scene.objects[2].casts = false;
+    assert_eq!(enclosed(&scene), None);
+    scene.objects[2] =
+        Object::solid("beside", Mesh::cuboid(eye.as_vec3() + 1.0, eye.as_vec3() + 3.0), Material::matt(Vec3::ONE));
+    assert_eq!(enclosed(&scene), None);
+    for (name, make) in gallery::ALL {
+        let scene = make();
+        let any = scene.lights.iter().flat_map(|light| diagnose(&scene, light, &Plan::default()));
+        assert!(any.into_iter().all(|found| !matches!(found, Diagnostic::Enclosed { .. })), "{name}");
+    }
 }
