@@ -24,13 +24,7 @@ pub(crate) fn too_thin(scene: &Scene, object: &Object, light: &Light, plan: &Pla
     let widths = widths(&mesh, view);
     let mut worst: Option<(f64, f64, f64)> = None;
     for (triangle, surface) in mesh.surfaces.iter().enumerate().take(mesh.triangles.len()) {
-        let (corners, normal, toward) = lit(&mesh, triangle, view);
-        let middle = corners.iter().sum::<DVec3>() / 3.0;
-        let facing = normal.dot(toward);
-        let zeta = -view.world_to_eye().transform_point3(middle).z;
-        // Axial depth per unit across the axis, over the map's x and y: D-15's slope, true in perspective as well.
-        let axial = toward.dot(view.ahead()).abs();
-        let slope = view.world_to_eye().transform_vector3(normal).truncate().abs() * (axial / facing);
+        let Stand { middle, toward, facing, zeta, axial, slope, .. } = Stand::of(mesh.corners(triangle), view);
         let wide = widths.get(surface).is_some_and(|width| *width >= 1.0);
         if !(wide && facing > 0.0 && slope.length() <= plan.slope && zeta > 0.0) {
             continue;
@@ -66,15 +60,8 @@ pub(crate) fn stacked(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnost
     let all = Geometry::from_faces(faces.collect(), vec![Body::default(); scene.objects.len()]);
     let mut worst: BTreeMap<u32, (f64, Diagnostic)> = BTreeMap::new();
     for (index, face) in all.faces().iter().enumerate() {
-        let corners = face.corners.map(Vec3::as_dvec3);
-        let middle = corners.iter().sum::<DVec3>() / 3.0;
-        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
-        let toward = view.toward_eye(middle);
+        let Stand { corners, middle, toward, facing, zeta, axial, slope } = Stand::of(face.corners, view);
         let solid = scene.objects[face.object as usize].solid;
-        let facing = normal.dot(toward);
-        let zeta = -view.world_to_eye().transform_point3(middle).z;
-        let axial = toward.dot(view.ahead()).abs();
-        let slope = view.world_to_eye().transform_vector3(normal).truncate().abs() * (axial / facing.abs());
         // The back of a solid is dark anyway.
         if facing == 0.0 || (solid && facing < 0.0) || slope.length() > plan.slope || zeta <= 0.0 {
             continue;
@@ -105,20 +92,44 @@ pub(crate) fn stacked(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnost
     worst.into_values().map(|(_, found)| found).collect()
 }
 
-/// Corners of a triangle, its unit normal, and the unit vector from its middle to the light.
-fn lit(mesh: &Mesh, triangle: usize, view: &View) -> ([DVec3; 3], DVec3, DVec3) {
-    let corners = mesh.corners(triangle).map(Vec3::as_dvec3);
-    let [a, b, c] = corners;
-    (corners, (b - a).cross(c - a).normalize_or_zero(), view.toward_eye((a + b + c) / 3.0))
+/// How a triangle stands to the light.
+struct Stand {
+    corners: [DVec3; 3],
+    middle: DVec3,
+    /// Unit vector from the middle to the light.
+    toward: DVec3,
+    /// Cosine between the normal and that; below 0 for a back.
+    facing: f64,
+    /// Axial distance of the middle.
+    zeta: f64,
+    /// Axial distance per unit along the light's ray.
+    axial: f64,
+    /// Axial depth per unit across the axis, over the map's x and y: D-15's slope, true in perspective as well.
+    slope: DVec2,
+}
+
+impl Stand {
+    fn of(corners: [Vec3; 3], view: &View) -> Self {
+        let corners = corners.map(Vec3::as_dvec3);
+        let [a, b, c] = corners;
+        let middle = (a + b + c) / 3.0;
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let toward = view.toward_eye(middle);
+        let facing = normal.dot(toward);
+        let axial = toward.dot(view.ahead()).abs();
+        let slope = view.world_to_eye().transform_vector3(normal).truncate().abs() * (axial / facing.abs());
+        let zeta = -view.world_to_eye().transform_point3(middle).z;
+        Self { corners, middle, toward, facing, zeta, axial, slope }
+    }
 }
 
 /// How wide the lit part of each smooth piece is in the map, texels: its area over the diagonal of its box.
 fn widths(mesh: &Mesh, view: &View) -> BTreeMap<u32, f64> {
     let mut pieces: BTreeMap<u32, (f64, DVec2, DVec2)> = BTreeMap::new();
     for (triangle, surface) in mesh.surfaces.iter().enumerate().take(mesh.triangles.len()) {
-        let (corners, normal, toward) = lit(mesh, triangle, view);
+        let Stand { corners, facing, .. } = Stand::of(mesh.corners(triangle), view);
         let eye = corners.map(|corner| view.world_to_eye().transform_point3(corner));
-        if normal.dot(toward) <= 0.0 || (view.is_perspective() && eye.iter().any(|at| at.z >= 0.0)) {
+        if facing <= 0.0 || (view.is_perspective() && eye.iter().any(|at| at.z >= 0.0)) {
             continue;
         }
         let [a, b, c] = eye.map(|at| view.eye_to_texel(at));
