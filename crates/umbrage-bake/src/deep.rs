@@ -112,7 +112,9 @@ where
     });
     let map = DeepMap::new(*view, deep.epsilon, steps).expect("steps were made in order");
     let mut stats = Stats::default();
-    moments.iter().for_each(|moment| stats += moment.bins.stats());
+    for moment in &moments {
+        stats += moment.bins.stats();
+    }
     BakedDeep { map, stats }
 }
 

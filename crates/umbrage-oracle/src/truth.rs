@@ -64,9 +64,10 @@ impl Lamp {
         let reach = if lamp.is_some() { way.length() } else { f64::INFINITY };
         let counts = |index: u32, t: f64| {
             let object = geometry.faces()[index as usize].object;
-            (!truth.casters_only || geometry.body(object).casts)
-                && !(object == at.object && t <= truth.own_slack)
-                && !lamp.is_some_and(|lamp| geometry.holds(index, &lamp))
+            let ignored = truth.casters_only && !geometry.body(object).casts;
+            let own = object == at.object && t <= truth.own_slack;
+            let at_the_light = || lamp.is_some_and(|lamp| geometry.holds(index, &lamp));
+            !(ignored || own || at_the_light())
         };
         if self.opaque {
             // Any surface will do, whichever is found first.
@@ -159,13 +160,10 @@ impl<'a> RayCast<'a> {
 
     /// What passes of the light, linear RGB: 1 lit, 0 dark.
     pub fn passes(&self, point: &SurfacePoint) -> Vec3 {
-        match self.lamp.verdict(point) {
-            Some(known) => Vec3::splat(1.0 - known),
-            None => {
-                let from = self.geometry.settled(point);
-                self.lamp.passes(self.geometry, point, &from, self.lamp.at)
-            }
+        if let Some(known) = self.lamp.verdict(point) {
+            return Vec3::splat(1.0 - known);
         }
+        self.lamp.passes(self.geometry, point, &self.geometry.settled(point), self.lamp.at)
     }
 }
 

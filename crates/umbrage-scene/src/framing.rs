@@ -165,7 +165,7 @@ fn closed_in(view: &View, points: &[DVec3], keep_sides: bool) -> Result<View, Fr
         (near, far) = (near - MARGIN, far + MARGIN);
     }
     if keep_sides {
-        return Ok(alike(View::new(view.world_to_eye(), view.projection(), near, far, view.size())?, view)?);
+        return Ok(alike(&View::new(view.world_to_eye(), view.projection(), near, far, view.size())?, view)?);
     }
     let (mut least, mut most) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let mut limit = DVec2::INFINITY;
@@ -203,11 +203,11 @@ fn closed_in(view: &View, points: &[DVec3], keep_sides: bool) -> Result<View, Fr
     } else {
         Projection::Orthographic { half, shift }
     };
-    Ok(alike(View::new(view.world_to_eye(), projection, near, far, view.size())?, view)?)
+    Ok(alike(&View::new(view.world_to_eye(), projection, near, far, view.size())?, view)?)
 }
 
 /// A view with everything of another that its constructor does not take.
-fn alike(view: View, other: &View) -> Result<View, ViewError> {
+fn alike(view: &View, other: &View) -> Result<View, ViewError> {
     view.with_kind(other.kind()).with_sampling(other.sampling()).with_rules(*other.rules()).with_cone(other.cone())
 }
 
@@ -248,6 +248,5 @@ pub fn fit(light: &View, ball: Ball) -> Result<View, FrameError> {
             square,
         )?
     };
-    let found = found.with_size(light.size())?;
-    Ok(found.with_kind(light.kind()).with_sampling(light.sampling()).with_rules(*light.rules()))
+    Ok(alike(&found.with_size(light.size())?, light)?)
 }

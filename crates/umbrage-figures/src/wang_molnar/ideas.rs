@@ -65,7 +65,7 @@ fn passes(cx: &Context) -> anyhow::Result<Made> {
     };
     let kept: Vec<DVec2> = stored(&map).into_iter().filter(|at| at.is_finite()).collect();
     // A depth that was rounded to f32 may lie behind its surface by that much.
-    let before = |at: &DVec2| slices::world(at.lerp(DVec2::from(light), f64::from(f32::EPSILON)));
+    let before = |at: &DVec2| slices::world(at.lerp(light, f64::from(f32::EPSILON)));
     let blocked = kept.iter().filter(|at| geometry.occluded(before(at), slices::world(light))).count();
     let wrong = unlike(&by_map);
     let facing: Vec<usize> = (0..truth.object.len()).filter(|&i| truth.facing[0][i] > 0.2).collect();

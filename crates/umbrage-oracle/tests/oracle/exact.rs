@@ -63,7 +63,7 @@ fn truth_agrees_with_integers_on_a_hundred_thousand_rays() {
     for scene in 0..100 {
         let key = Key::new(scene, 0, 0);
         let soup = soup(key);
-        let faces = soup.iter().map(|corners| Face { corners: corners.map(|at| at.as_vec3()), object: 0 });
+        let faces = soup.iter().map(|corners| Face { corners: corners.map(I64Vec3::as_vec3), object: 0 });
         let geometry = Geometry::from_faces(faces.collect(), vec![SHEET]);
         for ray in 0..1000 {
             let from = lattice(key, 1000 + ray, 0);
@@ -86,7 +86,7 @@ fn truth_agrees_with_integers_on_a_hundred_thousand_rays() {
                 (false, 0) => assert!(!found, "scene {scene}, ray {ray}: {from} to {to} crosses none"),
                 // An edge that two faces share has no gap.
                 (false, 2..) if ray % 8 == 6 && ray as usize % soup.len() % 4 == 2 => {
-                    assert!(found, "scene {scene}, ray {ray}")
+                    assert!(found, "scene {scene}, ray {ray}");
                 }
                 _ => {}
             }
