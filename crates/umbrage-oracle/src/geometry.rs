@@ -159,12 +159,18 @@ impl Geometry {
     /// origin and of the facet's size. So are points that came from f32, and those that a picture takes beside an edge on the
     /// plane of the next facet. A point that is farther off every facet of its object stays where it is.
     ///
-    /// Of the facets within that reach its own is the one with its normal, and the nearest of several such.
+    /// Of the facets within that reach its own is the one with its normal, and the nearest of several such. Where its object has
+    /// none there, a point of f32 numbers is taken to lie on any facet with its normal: not everybody names objects.
     pub(crate) fn settled(&self, point: &SurfacePoint) -> Place {
         let place = self.place(point.position);
+        let Some(root) = self.tree.nodes.first() else { return place };
         let mut facets = Vec::new();
-        if let Some(root) = self.tree.nodes.first() {
-            self.facets_about(root, place.at, point.object, &mut facets);
+        self.facets_about(root, place.at, Some(point.object), &mut facets);
+        let single = |at: DVec3| at.as_vec3().as_dvec3() == at;
+        if facets.is_empty() && (single(point.position) || single(place.at)) {
+            self.facets_about(root, place.at, None, &mut facets);
+            let normal = point.normal.as_dvec3();
+            facets.retain(|facet| self.triangles[facet.face as usize].normal.cross(normal).length() < 1e-3);
         }
         let turned = |facet: &Near| self.triangles[facet.face as usize].normal.cross(point.normal.as_dvec3()).length();
         let least = facets.iter().map(turned).fold(f64::INFINITY, f64::min);
@@ -176,8 +182,8 @@ impl Geometry {
         }
     }
 
-    /// The facets of an object that are near enough to a place for [`Geometry::settled`].
-    fn facets_about(&self, node: &Bvh2Node, place: DVec3, object: u32, found: &mut Vec<Near>) {
+    /// The facets of an object, or of any, that are near enough to a place for [`Geometry::settled`].
+    fn facets_about(&self, node: &Bvh2Node, place: DVec3, object: Option<u32>, found: &mut Vec<Near>) {
         let about = place.abs().max_element();
         let (low, high) = (node.aabb().min.as_dvec3(), node.aabb().max.as_dvec3());
         if (low - place).max(place - high).max_element() > ROUNDED * (about + (high - low).max_element()) {
@@ -192,7 +198,8 @@ impl Geometry {
         }
         for &face in &self.tree.primitive_indices[first..first + node.prim_count as usize] {
             let triangle = &self.triangles[face as usize];
-            if self.faces[face as usize].object == object && triangle.normal != DVec3::ZERO {
+            let asked = object.is_none_or(|object| self.faces[face as usize].object == object);
+            if asked && triangle.normal != DVec3::ZERO {
                 let at = triangle.nearest(place);
                 let distance = at.distance(place);
                 if distance <= ROUNDED * (about + triangle.size()) {

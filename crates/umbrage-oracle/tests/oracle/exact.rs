@@ -228,3 +228,27 @@ fn a_surface_that_holds_the_light_blocks_none_of_it() {
         assert_eq!((above.at(&wall(1.0)), above.at(&wall(-1.0))), (0.0, 1.0), "{lamp}");
     }
 }
+
+/// A point that was rounded to f32 lies beside its surface, whether it names its object or not.
+#[test]
+fn rounded_points_do_not_shadow_themselves_whatever_object_they_name() {
+    let turn = DMat3::from_rotation_z(0.37) * DMat3::from_rotation_x(-0.21);
+    let lift = DVec3::new(1.0, 2.0, -3.0);
+    let faces: Vec<Face> = floor(50.0, 1)
+        .iter()
+        .map(|face| Face { corners: face.corners.map(|at| (turn * at.as_dvec3() + lift).as_vec3()), object: 1 })
+        .collect();
+    let up = normal(&faces[0]);
+    let geometry = Geometry::from_faces(faces.clone(), vec![SOLID, SHEET]);
+    let truth = RayCast::everywhere(&geometry, (up + up.any_orthonormal_vector() * 3.0).extend(0.0));
+    let key = Key::new(5, 0, 0);
+    for i in 0..2000 {
+        let [a, b, c] = faces[i as usize % 2].corners.map(Vec3::as_dvec3);
+        let (s, t) = (f64::from(key.unit(i, 0)) * 0.5, f64::from(key.unit(i, 1)) * 0.5);
+        let position = (a + (b - a) * s + (c - a) * t).as_vec3();
+        for object in [0, 1, 7] {
+            let point = SurfacePoint { object, ..SurfacePoint::at(position, up.as_vec3()) };
+            assert_eq!(truth.at(&point), 0.0, "{position} of object {object}");
+        }
+    }
+}
