@@ -33,7 +33,7 @@ pub(super) fn encode(map: &DeepMap) -> Result<Vec<u8>, Fault> {
 /// The library writes headers of flat images only; the parts of one are the same.
 fn write_header(map: &DeepMap, window: TexelRect, names: &[&str], bytes: &mut Vec<u8>) -> exr::error::UnitResult {
     let (view, sides) = (map.view(), window.size());
-    let comments = comments(view, Stored::First, numbers(map));
+    let comments = comments(view, Stored::First, window, numbers(map));
     let channels = names.iter().map(|name| channel(name)).collect();
     let mut header = Header::new(Text::from("shadow"), Vec2(sides.x as usize, sides.y as usize), channels)
         .with_encoding(PACKING, BlockDescription::ScanLines, LineOrder::Increasing)

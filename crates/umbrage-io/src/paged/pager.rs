@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use umbrage_depth::MapError;
 use umbrage_depth::Stored;
-use umbrage_plane::View;
+use umbrage_plane::{TexelRect, View};
 
 /// Most tiles of a file: their table and directory take 12 bytes each.
 const MOST_TILES: u64 = 1 << 22;
@@ -30,6 +30,8 @@ pub(super) struct Pager {
     length: u64,
     meta: MetaData,
     pub(super) layout: Layout,
+    /// Outside of it no surface was seen, whatever the file holds there.
+    seen: TexelRect,
     nearest: Nearest,
     offsets: Vec<u64>,
     /// A page is in its slot before it is read, so that nobody else reads it and readers of other pages need not wait.
@@ -45,7 +47,7 @@ impl Pager {
         }
         let (file, length) = open_regular(path)?;
         let preface = Preface::read(BufReader::new(&file), length, u64::MAX, MOST_TILES);
-        let Preface { meta, view, stored, digest, layout, offsets } = preface.map_err(|fault| fault.in_file(path))?;
+        let Preface { meta, view, stored, digest, layout, seen, offsets } = preface.map_err(|fault| fault.in_file(path))?;
         if !layout.is_tiled() {
             return Err(Fault::new("tiles", "missing", "scan lines cannot be paged").in_file(path));
         }
@@ -56,6 +58,7 @@ impl Pager {
             meta,
             pages: Mutex::new(Lru::new(layout.count(), pages)),
             layout,
+            seen,
             nearest: Nearest::of(&view, digest),
             offsets,
             faults: AtomicU64::new(0),
@@ -103,6 +106,9 @@ impl Pager {
         let samples = self.layout.samples(&self.meta, &bytes, tile, offset)?;
         let depths = self.layout.area(tile).texels().zip(samples.as_chunks::<4>().0).map(|(texel, sample)| {
             let value = f32::from_ne_bytes(*sample);
+            if !self.seen.contains(texel) {
+                return Ok(f32::INFINITY);
+            }
             if value.is_nan() || value == f32::NEG_INFINITY {
                 return Err(Fault::new(
                     self.layout.name(tile, offset),

@@ -3,8 +3,10 @@
 //! One part, tiled 64 × 64, ZIP, one channel `Z` of 32-bit floats, one level. The display window is the map, the data
 //! window the box around its finite depths; texels outside it are +∞. Attributes: `worldToCamera` (left-handed, +z ahead, as
 //! OpenEXR has it), `worldToNDC` ((0, 0) upper left to (1, 1) lower right), `near`, `far`, `textureformat = "Shadow"`, and in
-//! `comments` the view in full precision and a digest of view and depths, by which damage is noticed. Files without the latter
-//! are read from the matrices; tools that change our files must drop `comments` and `software`.
+//! `comments` the view in full precision, the data window where it is not the whole map, and a digest of view and depths, by which
+//! damage is noticed. Files without `comments` are read from the matrices. A tool that fills a file of ours up to its display window,
+//! as `maketx --shadow` does with 0, leaves the same map: what `comments` says was not written is +∞. Tools that change depths must
+//! drop `comments` and `software`.
 
 mod layout;
 mod matrices;

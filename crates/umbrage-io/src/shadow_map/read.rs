@@ -21,6 +21,9 @@ pub(crate) struct Preface {
     /// Of view and depths; files of other makers have none.
     pub(crate) digest: Option<u64>,
     pub(crate) layout: Layout,
+    /// The rectangle outside of which no surface was seen, whatever the file holds there: tools that fill a cropped file up to its
+    /// display window, as `maketx` does, put 0 or NaN there. The whole map where the file does not say.
+    pub(crate) seen: TexelRect,
     /// Where the file has each block; all different, all behind the table and inside the file.
     pub(crate) offsets: Vec<u64>,
 }
@@ -63,8 +66,8 @@ impl Preface {
         }
         file.set_limit(length - position);
         let offsets = offsets(file, position, length, blocks)?;
-        let (view, stored, digest) = view(header, size)?;
-        Ok(Self { meta, view, stored, digest, layout, offsets })
+        let text::Description { view, stored, window: seen, digest } = described(header, size)?;
+        Ok(Self { meta, view, stored, digest, layout, seen, offsets })
     }
 }
 
@@ -79,7 +82,8 @@ pub(crate) fn decode(bytes: &[u8], most_texels: u64) -> Result<(View, Stored, Ve
     for (index, offset) in file.offsets.into_iter().enumerate() {
         let samples = file.layout.samples(&file.meta, &bytes[offset as usize..], index, offset)?;
         let area = file.layout.area(index);
-        for (texel, sample) in area.texels().zip(samples.as_chunks::<4>().0) {
+        let samples = area.texels().zip(samples.as_chunks::<4>().0);
+        for (texel, sample) in samples.filter(|(texel, _)| file.seen.contains(*texel)) {
             let depth = nearest
                 .check(f32::from_ne_bytes(*sample), || format!("channel Z at texel {}, {}", texel.x, texel.y))?;
             depths[texel.y as usize * size.x as usize + texel.x as usize] = depth;
@@ -181,14 +185,14 @@ fn offsets(mut file: impl Read, position: u64, length: u64, count: usize) -> Res
     }
 }
 
-/// The view from our text, with the stored surface and the digest that belong to it, or from the attributes that every tool writes.
-fn view(header: &Header, size: UVec2) -> Result<(View, Stored, Option<u64>), Fault> {
+/// What our text says, or what the attributes that every tool writes say.
+fn described(header: &Header, size: UVec2) -> Result<text::Description, Fault> {
     let attributes = &header.own_attributes;
-    if let Some(view) = attributes.comments.as_ref().and_then(|comments| text::to_view(&comments.to_string())) {
-        let text::Description { view, stored, digest } = view?;
-        let (inside, outside) = (view.size(), size);
+    if let Some(found) = attributes.comments.as_ref().and_then(|comments| text::to_view(&comments.to_string())) {
+        let found = found?;
+        let (inside, outside) = (found.view.size(), size);
         return if inside == outside {
-            Ok((view, stored, Some(digest)))
+            Ok(found)
         } else {
             let problem = format!("displayWindow is {} x {}", outside.x, outside.y);
             Err(Fault::new("comments: size", format!("{} x {}", inside.x, inside.y), problem))
@@ -205,5 +209,5 @@ fn view(header: &Header, size: UVec2) -> Result<(View, Stored, Option<u64>), Fau
         attributes.far_clip_plane.ok_or_else(|| missing("far"))?,
         size,
     )?;
-    Ok((view, Stored::First, None))
+    Ok(text::Description { view, stored: Stored::First, window: TexelRect::of_size(size), digest: None })
 }

@@ -2,7 +2,7 @@ use crate::error::Fault;
 use glam::{DMat4, DVec2, UVec2};
 use std::fmt::Write;
 use umbrage_depth::Stored;
-use umbrage_plane::{Kind, Projection, Rules, Sampling, Verdict, View};
+use umbrage_plane::{Kind, Projection, Rules, Sampling, TexelRect, Verdict, View};
 
 /// The first line of the text that holds a view.
 const SIGNATURE: &str = "umbrage view 1";
@@ -59,17 +59,23 @@ fn of_view(view: &View, stored: Stored) -> String {
     text
 }
 
-/// What our text says of a map.
+/// What a file says of its map, in our text or otherwise.
 pub(crate) struct Description {
     pub view: View,
     pub stored: Stored,
-    /// Of view, stored surface and depths.
-    pub digest: u64,
+    /// The rectangle outside of which no surface was seen, whatever a tool that padded the file has put there.
+    pub window: TexelRect,
+    /// Of view, stored surface and depths; only our text has one.
+    pub digest: Option<u64>,
 }
 
-/// The text of a file: the view, which surface is stored, and the digest of both and the depths.
-pub(crate) fn of_map(view: &View, stored: Stored, depths: impl IntoIterator<Item = f32>) -> String {
-    format!("{}digest={:016x}\n", of_view(view, stored), digest(view, stored, depths))
+/// The text of a file: the view, which surface is stored, the rectangle that is written of it unless it is the whole map, and the
+/// digest of view, surface and depths.
+pub(crate) fn of_map(view: &View, stored: Stored, window: TexelRect, depths: impl IntoIterator<Item = f32>) -> String {
+    let TexelRect { min, max } = window;
+    let cropped = window != TexelRect::of_size(view.size());
+    let window = if cropped { format!("window={} {} {} {}\n", min.x, min.y, max.x, max.y) } else { String::new() };
+    format!("{}{window}digest={:016x}\n", of_view(view, stored), digest(view, stored, depths))
 }
 
 /// A number that depends on every bit of a view and its depths (64-bit FNV-1a), so that a damaged file is not taken for
@@ -115,7 +121,11 @@ fn parse(lines: &str) -> Result<Description, Fault> {
     let stored = line("stored").map_or(Ok(Stored::First), |name| {
         Stored::named(&name).ok_or_else(|| fault("stored", &name, "not first, second, back-face, midpoint or other"))
     })?;
-    Ok(Description { view, stored, digest: number })
+    let window = line("window").map(|window| numbers::<4>("window", &window)).transpose()?;
+    let window = window.map_or(TexelRect::of_size(view.size()), |[left, top, right, bottom]| {
+        TexelRect::new(DVec2::new(left, top).as_ivec2(), DVec2::new(right, bottom).as_ivec2())
+    });
+    Ok(Description { view, stored, window, digest: Some(number) })
 }
 
 fn numbers<const N: usize>(name: &str, text: &str) -> Result<[f64; N], Fault> {

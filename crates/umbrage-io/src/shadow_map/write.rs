@@ -17,7 +17,7 @@ pub(crate) fn encode(map: &impl DepthMap) -> Result<Vec<u8>, Fault> {
     let view = map.view();
     let window = stored_window(map);
     let texels = TexelRect::of_size(view.size()).texels();
-    let comments = text::of_map(view, map.stored(), texels.map(|texel| map.depth(texel)));
+    let comments = text::of_map(view, map.stored(), window, texels.map(|texel| map.depth(texel)));
     let mut bytes = Cursor::new(Vec::new());
     let headers = std::iter::once(header(view, window, &comments)).collect();
     let written = block::write(&mut bytes, headers, true, |meta, writer| {

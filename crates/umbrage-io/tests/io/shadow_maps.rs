@@ -4,8 +4,8 @@ use ::exr::prelude::{ReadChannels as _, ReadLayers as _};
 use glam::{DVec3, DVec4, IVec2, Mat4, UVec2};
 use proptest::prelude::*;
 use umbrage_depth::{Bbox, DepthMap, Raw, Tiled};
-use umbrage_io::{DEFAULT_BUDGET, decode_shadow_map, encode_shadow_map, read_shadow_map, write_shadow_map};
-use umbrage_plane::{Kind, Projection, Rules, Sampling, View};
+use umbrage_io::{DEFAULT_BUDGET, Paged, decode_shadow_map, encode_shadow_map, read_shadow_map, write_shadow_map};
+use umbrage_plane::{Kind, Projection, Rules, Sampling, TexelRect, View};
 
 fn bits(map: &Raw) -> Vec<u32> {
     map.depths().iter().map(|depth| depth.to_bits()).collect()
@@ -108,25 +108,82 @@ pub(crate) fn foreign(view: &View, blocks: exr::Blocks, compression: exr::Compre
 
 /// The same with any depths.
 pub(crate) fn foreign_of(map: &Raw, blocks: exr::Blocks, compression: exr::Compression) -> Vec<u8> {
-    let view = map.view();
-    let ours = encode_shadow_map(map).expect("written");
-    let meta = exr::MetaData::read_from_buffered(ours.as_slice(), true).expect("ours");
-    let size = exr::Vec2(view.size().x as usize, view.size().y as usize);
-    let depths = map.depths().to_vec();
     let attributes = exr::LayerAttributes {
         comments: Some(exr::Text::from("by hand")),
         software_name: None,
         layer_position: exr::Vec2(5, -7),
-        ..meta.headers[0].own_attributes.clone()
+        ..our_attributes(map)
     };
+    whole_file(map.view().size(), attributes, map.depths().to_vec(), blocks, compression)
+}
+
+/// As `maketx --shadow` leaves a file of ours: what we say of it is kept, and what we did not write is filled with `filling`.
+pub(crate) fn filled_up(map: &Raw, filling: f32) -> Vec<u8> {
+    let ours = our_attributes(map);
+    let TexelRect { min, max } = Bbox::from(map).finite();
+    let depth = |texel: IVec2| if TexelRect::new(min, max).contains(texel) { map.depth(texel) } else { filling };
+    let depths = TexelRect::of_size(map.view().size()).texels().map(depth).collect();
+    let attributes = exr::LayerAttributes {
+        software_name: Some(exr::Text::from("another")),
+        layer_position: exr::Vec2(0, 0),
+        ..ours
+    };
+    let blocks = exr::Blocks::Tiles(exr::Vec2(64, 64));
+    whole_file(map.view().size(), attributes, depths, blocks, exr::Compression::ZIP16)
+}
+
+fn our_attributes(map: &Raw) -> exr::LayerAttributes {
+    let ours = encode_shadow_map(map).expect("written");
+    let meta = exr::MetaData::read_from_buffered(ours.as_slice(), true).expect("ours");
+    meta.headers[0].own_attributes.clone()
+}
+
+/// A file without a cropped window, written by the crate's own writer.
+fn whole_file(
+    size: UVec2,
+    attributes: exr::LayerAttributes,
+    depths: Vec<f32>,
+    blocks: exr::Blocks,
+    compression: exr::Compression,
+) -> Vec<u8> {
+    let size = exr::Vec2(size.x as usize, size.y as usize);
+    let window = exr::IntegerBounds::new(attributes.layer_position, size);
     let channel = exr::AnyChannel::new("Z", exr::FlatSamples::F32(depths));
     let encoding = exr::Encoding { compression, blocks, line_order: exr::LineOrder::Increasing };
     let layer = exr::Layer::new(size, attributes, encoding, exr::AnyChannels::sort(std::iter::once(channel).collect()));
-    let window = exr::IntegerBounds::new(exr::Vec2(5, -7), size);
     let image = exr::Image::new(exr::ImageAttributes::new(window), layer);
     let mut bytes = std::io::Cursor::new(Vec::new());
     exr::WritableImage::write(&image).non_parallel().to_buffered(&mut bytes).expect("written");
     bytes.into_inner()
+}
+
+/// What was not written is "no surface", bit for bit, whatever a tool puts there: 0 as `maketx` does, or NaN.
+#[test]
+fn our_cropped_files_are_read_right_after_a_tool_has_filled_them_up() {
+    let folder = folder("filled");
+    for view in [spot(UVec2::new(145, 133)), sun(UVec2::new(145, 133))] {
+        let map = map(&view);
+        for filling in [0.0, f32::NAN, -1.0, 25.0, f32::NEG_INFINITY] {
+            let bytes = filled_up(&map, filling);
+            let read = decode_shadow_map(&bytes, DEFAULT_BUDGET).expect("read");
+            assert_eq!(bits(&read), bits(&map), "{filling}");
+            let path = folder.join("filled.exr");
+            std::fs::write(&path, &bytes).expect("written");
+            let (paged, handle) = Paged::open(&path, 9).expect("opened");
+            for texel in TexelRect::of_size(view.size()).texels() {
+                assert_eq!(paged.depth(texel), map.depth(texel), "{filling} {texel}");
+            }
+            assert!(handle.error().is_none());
+        }
+        // Inside, NaN is damage as before.
+        let mut depths: Vec<f32> = map.depths().to_vec();
+        depths[60 * 145 + 60] = f32::NAN;
+        let blocks = exr::Blocks::Tiles(exr::Vec2(64, 64));
+        let broken = exr::LayerAttributes { layer_position: exr::Vec2(0, 0), ..our_attributes(&map) };
+        let broken = whole_file(view.size(), broken, depths, blocks, exr::Compression::ZIP16);
+        let message = decode_shadow_map(&broken, DEFAULT_BUDGET).expect_err("damaged").to_string();
+        assert!(message.starts_with("comments: digest is "), "{message}");
+    }
 }
 
 #[test]
