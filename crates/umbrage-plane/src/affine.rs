@@ -4,13 +4,27 @@ use glam::{DVec2, IVec2};
 /// What the numbers in a map mean (spec C-4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Kind {
-    /// ζ: distance along the view's axis, in world units. The default.
+    /// ζ: distance along the view's axis, in world units. What a view stores unless its range is narrow ([`Kind::of_range`]).
     #[default]
     Axial,
     /// Post-projective depth z_s: 0 at the near plane, 1 at the far plane (Williams 1978, Wang & Molnar 1994).
     Screen,
     /// Euclidean distance from the light, in world units (cube and latitude-longitude maps).
     Radial,
+}
+
+impl Kind {
+    /// What a view stores whose caller has not chosen: [`Kind::Axial`], unless the range is so narrow and so far away that a float of
+    /// axial distance has lost more than four of its 24 bits to the distance, which is where the range is less than a sixteenth of the
+    /// larger distance. Then it is [`Kind::Screen`], whose numbers begin at the near plane.
+    ///
+    /// Distance from the near plane in world units would be no better: from near n to far f, floats of axial distance have steps
+    /// of f·2⁻²⁴ at the far plane, of screen depth (f − n)·f/n·2⁻²⁴, of distance from the near plane (f − n)·2⁻²⁴. The best of
+    /// the first two is never more than twice the last.
+    #[must_use]
+    pub fn of_range(near: f64, far: f64) -> Self {
+        if near.abs().max(far.abs()) > 16.0 * (far - near) { Self::Screen } else { Self::Axial }
+    }
 }
 
 /// A plane's key as an affine function of texel coordinates: `key(x, y) = c + dx·x + dy·y`.

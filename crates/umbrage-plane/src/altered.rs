@@ -107,8 +107,10 @@ impl View {
         Self::new(self.world_to_eye, projection, self.near, self.far, size).map(|view| view.alike(&self))
     }
 
-    /// With everything of another view that [`View::new`] does not ask for.
-    fn alike(self, other: &Self) -> Self {
+    /// The same placement, projection, range and size, with everything of another view that [`View::new`] does not ask for: kind, sampling,
+    /// rules and cone.
+    #[must_use]
+    pub fn alike(self, other: &Self) -> Self {
         Self { kind: other.kind, sampling: other.sampling, rules: other.rules, cone: other.cone, ..self }
     }
 }

@@ -55,7 +55,7 @@ pub struct View {
 }
 
 impl View {
-    /// From a rigid `world_to_eye` transform. Kind [`Kind::Axial`], sampled at texel centres, [`Rules::OPEN`], no cone.
+    /// From a rigid `world_to_eye` transform. The kind is that [of its range](Kind::of_range): axial where it is not narrow; sampled at texel centres, [`Rules::OPEN`], no cone.
     ///
     /// # Errors
     /// See [`ViewError`]; nothing is rounded or repaired.
@@ -102,7 +102,7 @@ impl View {
             near,
             far,
             size,
-            kind: Kind::Axial,
+            kind: Kind::of_range(near, far),
             sampling: Sampling::Centre,
             rules: Rules::OPEN,
             cone: None,

@@ -1,7 +1,7 @@
 //! How views are made: each fault is named, lights by named fields, rays through texels.
 
 use glam::{DVec2, DVec3, UVec2, Vec3};
-use umbrage_plane::{Place, Rules, Sectors, SpotView, SurfacePoint, View, ViewError, sector_views, up_for};
+use umbrage_plane::{Kind, Place, Rules, Sectors, SpotView, SurfacePoint, View, ViewError, sector_views, up_for};
 
 const SIZE: UVec2 = UVec2::splat(64);
 const NAN: f64 = f64::NAN;
@@ -193,7 +193,43 @@ fn rays_are_the_inverse_of_projection() {
     }
     // Distances along a ray are radial depths in perspective.
     let (origin, direction) = lamp.ray(DVec2::new(10.0, 20.0));
-    let radial = lamp.with_kind(umbrage_plane::Kind::Radial);
+    let radial = lamp.with_kind(Kind::Radial);
     let seen = radial.receiver(&SurfacePoint::at(origin + direction * 7.0, Vec3::Y)).unwrap();
     assert!((seen.depth - 7.0).abs() < 1e-6);
+}
+
+/// Kinds choose themselves: floats of the natural kind are never coarser than twice those of the distance from the near plane.
+#[test]
+fn a_view_stores_the_kind_of_depth_that_suits_its_range() {
+    let of = |near: f64, far: f64| {
+        View::perspective(DVec3::ZERO, DVec3::X, DVec3::Y, 1.0, near, far, UVec2::splat(8)).unwrap()
+    };
+    let sun = |near: f64, far: f64| {
+        View::orthographic(DVec3::ZERO, DVec3::X, DVec3::Y, 1.0, near, far, UVec2::splat(8)).unwrap()
+    };
+    for (near, far) in [(0.1, 1e4), (1.0, 60.0), (9.0, 10.0), (150.0, 160.0)] {
+        assert_eq!((of(near, far).kind(), sun(near, far).kind()), (Kind::Axial, Kind::Axial), "{near} {far}");
+    }
+    for (near, far) in [(151.0, 160.0), (1e7 - 100.0, 1e7 + 100.0)] {
+        assert_eq!((of(near, far).kind(), sun(near, far).kind()), (Kind::Screen, Kind::Screen), "{near} {far}");
+    }
+    assert_eq!([sun(-20.0, 20.0), sun(-1e7, -1e7 + 9.0)].map(|view| view.kind()), [Kind::Axial, Kind::Screen]);
+    for (near, far) in [(0.01, 1e4), (1.0, 2.0), (15.0, 16.0), (15.1, 16.0), (1e6, 1e6 + 8.0)] {
+        let view = of(near, far);
+        let step = |zeta: f64| match view.kind() {
+            Kind::Screen => {
+                let depth = view.key(zeta) as f32;
+                view.decode().zeta(depth.next_up()) - view.decode().zeta(depth)
+            }
+            Kind::Axial | Kind::Radial => f64::from((zeta as f32).next_up()) - f64::from(zeta as f32),
+        };
+        // What a float of the distance from the near plane would make of the largest distance, twice.
+        let offset = (far - near) * 2f64.powi(-23);
+        let worst = step(far).max(step(near)) * 0.999;
+        let most = if view.kind() == Kind::Screen { 2.0 * offset } else { 16.0 * 2.0 * offset };
+        assert!(worst <= most, "{near} {far}: {worst} > {most}");
+    }
+    // Whoever has chosen is not corrected, whatever else changes.
+    let chosen = of(1e6, 1e6 + 8.0).with_kind(Kind::Radial);
+    assert_eq!(chosen.with_size(UVec2::splat(9)).unwrap().scaled(2.0).unwrap().kind(), Kind::Radial);
 }

@@ -2,7 +2,7 @@
 
 use crate::{Light, Scene};
 use glam::{DVec2, DVec3, UVec2};
-use umbrage_plane::{Projection, Rules, Verdict, View, ViewError, up_for};
+use umbrage_plane::{Kind, Projection, Rules, Verdict, View, ViewError, up_for};
 
 /// A ball in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,7 +116,8 @@ impl Scene {
     }
 
     /// The light with the narrowest view that holds every relevant caster ([`Scene::relevant_casters`]), from its own place: what
-    /// the map's sides, near and far planes are is found (EXT-9). Kind, sampling, cone and map size stay; texels need not be square.
+    /// the map's sides, near and far planes are is found (EXT-9). Sampling, cone and map size stay, and the kind unless another suits the new
+    /// range ([`Kind::of_range`]); texels need not be square.
     ///
     /// What the light lights does not change. A light that shines alike in all directions is turned toward its casters. One
     /// with a cone or a tree keeps its axis, and its map is the part of the view that holds the casters within its cone;
@@ -161,11 +162,13 @@ fn closed_in(view: &View, points: &[DVec3], keep_sides: bool) -> Result<View, Fr
         far = high * (1.0 + MARGIN);
     }
     if near >= far {
-        // All casters are at one distance: a flat sheet that the light looks straight at.
-        (near, far) = (near - MARGIN, far + MARGIN);
+        // All casters are at one distance: a flat sheet that the light looks straight at. Far away, f64 must still tell the two apart.
+        let width = Ball::around(points).map_or(0.0, |ball| ball.radius);
+        let widen = (MARGIN * width).max(near.abs() * f64::EPSILON * 1024.0);
+        (near, far) = (near - widen, far + widen);
     }
     if keep_sides {
-        return Ok(alike(&View::new(view.world_to_eye(), view.projection(), near, far, view.size())?, view)?);
+        return Ok(alike(View::new(view.world_to_eye(), view.projection(), near, far, view.size())?, view));
     }
     let (mut least, mut most) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let mut limit = DVec2::INFINITY;
@@ -203,12 +206,14 @@ fn closed_in(view: &View, points: &[DVec3], keep_sides: bool) -> Result<View, Fr
     } else {
         Projection::Orthographic { half, shift }
     };
-    Ok(alike(&View::new(view.world_to_eye(), projection, near, far, view.size())?, view)?)
+    Ok(alike(View::new(view.world_to_eye(), projection, near, far, view.size())?, view))
 }
 
-/// A view with everything of another that its constructor does not take.
-fn alike(view: &View, other: &View) -> Result<View, ViewError> {
-    view.with_kind(other.kind()).with_sampling(other.sampling()).with_rules(*other.rules()).with_cone(other.cone())
+/// A view with everything of another that its constructor does not take. A kind that is the natural one of the other's range gives way
+/// to the natural one of the new range.
+fn alike(view: View, other: &View) -> View {
+    let natural = other.kind() == Kind::of_range(other.near(), other.far());
+    if natural { view.alike(other).with_kind(view.kind()) } else { view.alike(other) }
 }
 
 fn ball(points: impl Iterator<Item = DVec3>) -> Option<Ball> {
@@ -248,5 +253,5 @@ pub fn fit(light: &View, ball: Ball) -> Result<View, FrameError> {
             square,
         )?
     };
-    Ok(alike(&found.with_size(light.size())?, light)?)
+    Ok(alike(found.with_size(light.size())?, light))
 }

@@ -1,6 +1,6 @@
 use crate::error::Fault;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, Mat4, UVec2};
-use umbrage_plane::{Projection, View};
+use umbrage_plane::{Kind, Projection, View};
 
 /// How far the axes and scales in a foreign file's matrices, which are f32 and were multiplied by others, may be off. It does
 /// not depend on where the light stands.
@@ -50,6 +50,7 @@ pub(crate) fn to_view(
         Fault::new("worldToNDC", format!("{world_to_ndc:?}"), problem)
     })?;
     View::new(EYE_TO_CAMERA * straightened(camera), projection, f64::from(near), f64::from(far), size)
+        .map(|view| view.with_kind(Kind::Axial))
         .map_err(|error| Fault::new("near, far", format!("{near}, {far}"), error))
 }
 

@@ -1,7 +1,7 @@
 //! Lights that find their own view (EXT-9, V66).
 
 use glam::{DVec2, DVec3, UVec2, Vec3};
-use umbrage_plane::{Projection, Rules, Verdict, View};
+use umbrage_plane::{Kind, Projection, Rules, Verdict, View};
 use umbrage_scene::tree::{Cone, Tree};
 use umbrage_scene::{Ball, FrameError, Light, Material, Mesh, Object, Scene, fit, gallery};
 
@@ -173,4 +173,35 @@ fn a_light_that_only_its_map_limits_keeps_the_sides_of_its_map() {
     let spot = Light::spot("spot", DVec3::Y * 9.0, DVec3::ZERO, 80.0, 0.5, 60.0, UVec2::ONE).unwrap();
     let ball = Ball { centre: DVec3::ZERO, radius: 1.0 };
     assert_eq!(fit(&spot.view, ball), Err(FrameError::Aimed));
+}
+
+/// What a framed map stores suits what it frames; a sheet at one distance has a range, however small or far it is.
+#[test]
+fn a_framed_light_stores_the_kind_of_depth_that_suits_what_it_frames() {
+    for size in [1e-3f64, 1.0, 1e3] {
+        for away in [0.5, 20.0, 1e8] {
+            let corners = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
+            let corners = corners.map(|(x, z)| (DVec3::new(x, 0.0, z) * size).as_vec3());
+            let mut scene = gallery::sphere_plane();
+            scene.objects = vec![Object::solid("sheet", Mesh::sheet(corners, 1), Material::matt(Vec3::ONE))];
+            let eye = DVec3::Y * size * away;
+            let view = View::orthographic(eye, DVec3::NEG_Y * 1e9, DVec3::X, size, 0.0, 2e9, UVec2::splat(64)).unwrap();
+            scene.camera = View::perspective(
+                DVec3::splat(3.0 * size),
+                DVec3::ZERO,
+                DVec3::Y,
+                1.0,
+                0.1 * size,
+                9.0 * size,
+                UVec2::splat(8),
+            )
+            .unwrap();
+            scene.lights[0].view = view;
+            let found = scene.framed(&scene.lights[0]).unwrap().view;
+            assert!(found.near() < size * away && size * away < found.far(), "{size} {away}: {found:?}");
+            assert_eq!(found.kind(), Kind::of_range(found.near(), found.far()));
+            scene.lights[0].view = view.with_kind(Kind::Radial);
+            assert_eq!(scene.framed(&scene.lights[0]).unwrap().view.kind(), Kind::Radial, "as the caller has it");
+        }
+    }
 }
