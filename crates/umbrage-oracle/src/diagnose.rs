@@ -1,7 +1,7 @@
 //! What is wrong with a scene before a map of it is made: values to act on, each with its line for people.
 
 use crate::predict::{float_step, severe_perspective};
-use crate::thin::{stacked, too_thin};
+use crate::thin::{folded, stacked, too_thin};
 use crate::{Body, Diagnostic, Face, Geometry, Plan};
 use glam::DVec3;
 use umbrage_depth::Stored;
@@ -64,6 +64,7 @@ pub fn diagnose(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
     }
     found.extend(scene.objects.iter().filter_map(|object| too_thin(scene, object, light, plan)));
     found.extend(stacked(scene, light, plan));
+    found.extend(folded(scene, light, plan));
     found
 }
 
@@ -89,18 +90,20 @@ fn enclosed(scene: &Scene, object: &Object, light: &Light) -> Option<Diagnostic>
     Some(Diagnostic::Enclosed { light: light.name.clone(), object: object.name.clone(), nearest, cut })
 }
 
-/// Whether floats are fine enough at the farthest receiver, in the map's kind of depth or in another.
+/// Whether floats are fine enough at the farthest receiver, in the map's kind of depth or in another: for half the bias, or, where there
+/// is none, for the side of a texel, by which shadows are detached then.
 fn coarse_depth(light: &Light, bias: f64, farthest: f64) -> Option<Diagnostic> {
     let kind = light.view.kind();
     let step = float_step(&light.view, farthest);
-    if step <= 0.5 * bias.max(0.0) || bias <= 0.0 {
+    let allowed = if bias > 0.0 { 0.5 * bias } else { light.view.texel_world(farthest).max_element() };
+    if step <= allowed {
         return None;
     }
     let others =
         [Kind::Axial, Kind::Screen, Kind::Radial].map(|kind| (kind, float_step(&light.view.with_kind(kind), farthest)));
-    let finest = others.into_iter().filter(|(_, step)| *step <= 0.5 * bias).min_by(|a, b| a.1.total_cmp(&b.1));
+    let finest = others.into_iter().filter(|(_, step)| *step <= allowed).min_by(|a, b| a.1.total_cmp(&b.1));
     let better = finest.map(|(kind, _)| kind);
-    Some(Diagnostic::CoarseDepth { light: light.name.clone(), kind, farthest, step, bias, better })
+    Some(Diagnostic::CoarseDepth { light: light.name.clone(), kind, farthest, step, allowed, better })
 }
 
 /// Casters that are smaller than a texel, and casters that are no larger than twice the bias.

@@ -34,7 +34,8 @@ pub enum Diagnostic {
     /// The 24 bits of a float are too coarse for the farthest receiver in this kind of depth: narrow ranges far away in axial or
     /// radial depth, a near plane close to the light in screen depth.
     #[error(
-        "light {light:?}: at distance {farthest} a float of {kind:?} depth is rounded to {step} world units, more than half the bias {bias}: {}",
+        "light {light:?}: at distance {farthest} a float of {kind:?} depth is rounded to {step} world units, more than the {allowed} of half the bias or, without one, a \
+         texel: {}",
         mend(*better)
     )]
     CoarseDepth {
@@ -46,15 +47,16 @@ pub enum Diagnostic {
         farthest: f64,
         /// From one float to the next there, world units.
         step: f64,
-        /// The bias, world units.
-        bias: f64,
-        /// The kind that rounds to no more than half the bias, if there is one.
+        /// Half the bias, or the side of a texel there without one, world units.
+        allowed: f64,
+        /// The kind that rounds to no more than that, if there is one.
         better: Option<Kind>,
     },
     /// The light stands inside a closed caster, a bulb or a shade: all that is outside of it is in its shadow, or, where its wall is
     /// nearer than 1/1024 of the near distance, lit through the hole that the near plane cuts.
     #[error(
-        "light {light:?} stands inside the closed object {object:?}, whose nearest corner in front of it is at {nearest}: {}, so let the          object not cast",
+        "light {light:?} stands inside the closed object {object:?}, whose nearest corner in front of it is at {nearest}: {}, so let the \
+         object not cast",
         if *cut { "the near plane cuts a hole into it" } else { "everything outside is in its shadow" }
     )]
     Enclosed {
@@ -69,7 +71,8 @@ pub enum Diagnostic {
     },
     /// Casters are smaller than a texel where they are: they are met by chance, and their shadows come and go.
     #[error(
-        "light {light:?}: {casters} of {of} casters are smaller than a texel, {object:?} for one, which is {size:.4} world units across          where a texel is {texel:.4}: use several views, a window fitted to the casters, or a map of {side_needed} texels a side"
+        "light {light:?}: {casters} of {of} casters are smaller than a texel, {object:?} for one, which is {size:.4} world units across \
+         where a texel is {texel:.4}: use several views, a window fitted to the casters, or a map of {side_needed} texels a side"
     )]
     CoarseTexels {
         /// The light's name.
@@ -89,7 +92,8 @@ pub enum Diagnostic {
     },
     /// The bias is as large as what casts: shadows are lost, or start far behind what throws them.
     #[error(
-        "light {light:?}: the bias of {bias} world units is more than half the size of {casters} of {of} casters, {object:?} for one, which          is {size:.6} across: give the bias in texels, or in the scene's own measure"
+        "light {light:?}: the bias of {bias} world units is more than half the size of {casters} of {of} casters, {object:?} for one, which \
+         is {size:.6} across: give the bias in texels, or in the scene's own measure"
     )]
     LargeBias {
         /// The light's name.
@@ -108,7 +112,8 @@ pub enum Diagnostic {
     /// Another surface lies so close behind a caster that what is stored between them shadows the caster: a rug on a floor, a
     /// floor that is drawn twice, boxes that touch (Woo 1992; Wang & Molnar 1994; WM94-17).
     #[error(
-        "light {light:?}: {other:?} lies {gap:.6} world units behind {object:?} where depth changes by {step:.4} over the filter, so that          {object:?} shadows itself: store nearest surfaces with a bias, or back faces, or leave one of them out of the map"
+        "light {light:?}: {other:?} lies {gap:.6} world units behind {object:?} where depth changes by {step:.4} over the filter, so that \
+         {object:?} shadows itself: store nearest surfaces with a bias, or back faces, or leave one of them out of the map"
     )]
     Stacked {
         /// The light's name.
@@ -121,6 +126,20 @@ pub enum Diagnostic {
         gap: f64,
         /// What depth may be wrong by there, as in [`Diagnostic::TooThin`].
         step: f64,
+    },
+    /// A sheet lies over itself, and the midpoint rule takes all of an object that faces one way for one surface: its shadow on itself is
+    /// lost (Woo 1992; W92-3).
+    #[error(
+        "light {light:?}: sheet {object:?} lies over itself, {gap:.4} world units apart at most, and same=surface takes both for one: its \
+         shadow on itself is lost; use same=depth with one sub-sample, or make them two objects"
+    )]
+    LostFold {
+        /// The light's name.
+        light: String,
+        /// The sheet's name.
+        object: String,
+        /// The largest distance between two folds, along the light's axis, world units.
+        gap: f64,
     },
     /// Under the midpoint rule a single sheet leaves nothing to compare with where its receiver is not in the map (Woo 1992; W92-9).
     #[error(

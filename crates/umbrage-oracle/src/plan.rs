@@ -1,4 +1,4 @@
-use umbrage_depth::Stored;
+use umbrage_depth::{Midpoint, Stored};
 use umbrage_plane::{Bias, Kind, View};
 use umbrage_recipe::Recipe;
 
@@ -11,6 +11,8 @@ pub struct Plan {
     pub bias_world: f64,
     /// What the map keeps.
     pub stored: Stored,
+    /// How midpoints are found, where these are what it keeps.
+    pub midpoint: Midpoint,
     /// Tangent of the steepest angle between a caster's surface and the map's plane that must be free of error, ≥ 0 (WM94-17).
     /// 0 does not ask.
     pub slope: f64,
@@ -21,7 +23,14 @@ pub struct Plan {
 impl Default for Plan {
     /// Float depth of the first surface with Reeves' smaller bias.
     fn default() -> Self {
-        Self { depth_bits: None, bias_world: 0.3, stored: Stored::First, slope: 0.0, filter_half: 0.0 }
+        Self {
+            depth_bits: None,
+            bias_world: 0.3,
+            stored: Stored::First,
+            midpoint: Midpoint::default(),
+            slope: 0.0,
+            filter_half: 0.0,
+        }
     }
 }
 
@@ -41,6 +50,13 @@ impl Plan {
             }
         };
         let filter_half = f64::from(recipe.least_half());
-        Self { depth_bits: None, bias_world, stored: recipe.stored(), slope: SLOPE, filter_half }
+        Self {
+            depth_bits: None,
+            bias_world,
+            stored: recipe.stored(),
+            midpoint: recipe.midpoint(),
+            slope: SLOPE,
+            filter_half,
+        }
     }
 }

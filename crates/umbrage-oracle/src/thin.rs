@@ -2,7 +2,7 @@ use crate::predict::{acne_free_bias, slack};
 use crate::{Body, Diagnostic, Face, Geometry, Plan};
 use glam::{DVec2, DVec3, Vec3};
 use std::collections::BTreeMap;
-use umbrage_depth::Stored;
+use umbrage_depth::{SameSurface, Stored};
 use umbrage_plane::View;
 use umbrage_scene::{Light, Mesh, Object, Scene};
 
@@ -45,19 +45,13 @@ pub(crate) fn too_thin(scene: &Scene, object: &Object, light: &Light, plan: &Pla
 
 /// The nearest pair of a caster and what lies behind it along the light, for each caster, where what is stored between them
 /// shadows the caster. Only midpoints are stored there: a second surface is the caster's own or the other's, and what lies on it
-/// is lit.
+/// is lit. What the plan's rule takes for one surface with the caster is not behind it.
 pub(crate) fn stacked(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
     if !(plan.slope > 0.0 && plan.stored == Stored::Midpoint) {
         return Vec::new();
     }
     let view = &scene.about_origin(&light.view);
-    let meshes: Vec<_> = scene.objects.iter().map(|object| object.shape.mesh_for(view)).collect();
-    let casting = || scene.objects.iter().enumerate().filter(|(_, object)| object.casts);
-    let faces = casting().flat_map(|(object, _)| {
-        let mesh = &meshes[object];
-        (0..mesh.triangles.len()).map(move |triangle| Face { corners: mesh.corners(triangle), object: object as u32 })
-    });
-    let all = Geometry::from_faces(faces.collect(), vec![Body::default(); scene.objects.len()]);
+    let all = casters(scene, view);
     let mut worst: BTreeMap<u32, (f64, Diagnostic)> = BTreeMap::new();
     for (index, face) in all.faces().iter().enumerate() {
         let Stand { corners, middle, toward, facing, zeta, axial, slope } = Stand::of(face.corners, view);
@@ -75,7 +69,16 @@ pub(crate) fn stacked(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnost
         let behind = |hit: &&crate::Hit| {
             // Neighbours of the same piece, and a solid's own back, are for others to judge.
             let other = hit.object != face.object || (!solid && hit.face as usize != index);
-            other && hit.t >= own - 2.0 * above
+            // Sides of two solids that touch face opposite ways: they are one where they touch, and two at the seam.
+            let alike = (hit.normal.dot(toward) > 0.0) == (facing > 0.0);
+            let coincide = (hit.t - own) * axial <= f64::from(plan.midpoint.merge) * zeta;
+            let one = alike
+                && match plan.midpoint.same {
+                    SameSurface::Depth => coincide,
+                    SameSurface::Object => coincide && hit.object == face.object,
+                    SameSurface::Surface => hit.object == face.object,
+                };
+            other && !one && hit.t >= own - 2.0 * above
         };
         let Some(next) = hits.iter().filter(behind).min_by(|a, b| a.t.total_cmp(&b.t)) else { continue };
         let gap = ((next.t - own) * axial).max(0.0);
@@ -90,6 +93,51 @@ pub(crate) fn stacked(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnost
         }
     }
     worst.into_values().map(|(_, found)| found).collect()
+}
+
+/// Sheets that fold over themselves, where the plan's rule takes all that faces the light for one surface: what lies behind the first fold
+/// is lit (Woo 1992; W92-3). A solid's own back, or another object, ends the surface before its next fold.
+pub(crate) fn folded(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
+    let one_at_any_depth = plan.stored == Stored::Midpoint && plan.midpoint.same == SameSurface::Surface;
+    let sheet = |object: &Object| object.casts && object.receives && !object.solid;
+    if !one_at_any_depth || !scene.objects.iter().any(sheet) {
+        return Vec::new();
+    }
+    let view = &scene.about_origin(&light.view);
+    let all = casters(scene, view);
+    let mut found: BTreeMap<u32, f64> = BTreeMap::new();
+    for (index, face) in all.faces().iter().enumerate().filter(|(_, face)| sheet(&scene.objects[face.object as usize]))
+    {
+        let Stand { middle, toward, facing, zeta, axial, .. } = Stand::of(face.corners, view);
+        if facing == 0.0 || zeta <= 0.0 {
+            continue;
+        }
+        let apart = f64::from(plan.midpoint.merge) * zeta;
+        let behind = all.hits(middle, -toward).into_iter().filter(|hit| hit.face as usize != index && hit.t > apart);
+        let next = behind.min_by(|a, b| a.t.total_cmp(&b.t));
+        if let Some(fold) =
+            next.filter(|hit| hit.object == face.object && (hit.normal.dot(toward) > 0.0) == (facing > 0.0))
+        {
+            let gap = found.entry(face.object).or_insert(0.0);
+            *gap = gap.max(fold.t * axial);
+        }
+    }
+    let lost = |(object, gap): (u32, f64)| {
+        let object = scene.objects[object as usize].name.clone();
+        Diagnostic::LostFold { light: light.name.clone(), object, gap }
+    };
+    found.into_iter().map(lost).collect()
+}
+
+/// All that casts, about the scene's origin as `view` is.
+fn casters(scene: &Scene, view: &View) -> Geometry {
+    let casting = scene.objects.iter().enumerate().filter(|(_, object)| object.casts);
+    let faces = casting.flat_map(|(id, object)| {
+        let mesh = object.shape.mesh_for(view);
+        let face = |triangle| Face { corners: mesh.corners(triangle), object: id as u32 };
+        (0..mesh.triangles.len()).map(face).collect::<Vec<_>>()
+    });
+    Geometry::from_faces(faces.collect(), vec![Body::default(); scene.objects.len()])
 }
 
 /// How a triangle stands to the light.

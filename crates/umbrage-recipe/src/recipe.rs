@@ -2,7 +2,7 @@ use crate::bake::Moment;
 use crate::values::Values;
 use crate::{PresetName, RecipeError, kind};
 use umbrage_bake::Caster;
-use umbrage_depth::{DepthMap, Map, Storage, Stored};
+use umbrage_depth::{DepthMap, Map, Midpoint, Storage, Stored};
 use umbrage_plane::{Bias, View};
 use umbrage_raster::Stats;
 use umbrage_shadow::Shadow;
@@ -60,6 +60,12 @@ impl Recipe {
     #[must_use]
     pub fn stored(&self) -> Stored {
         self.values.rule.stored()
+    }
+
+    /// How midpoints are found, where these are what its maps record.
+    #[must_use]
+    pub fn midpoint(&self) -> Midpoint {
+        self.values.midpoint
     }
 
     /// The surfaces over which it may be [bound](Self::bind): the one that `stored` names, or those that the preset expects.

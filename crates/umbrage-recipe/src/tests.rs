@@ -111,6 +111,11 @@ fn b06_every_field_is_read_and_what_contradicts_is_refused() {
     assert!(refused("burley,min=9,max=3").starts_with("min = "));
     assert!(refused("burley,max=0.2").starts_with("min = "), "the preset's min is larger");
     assert!(refused("reeves87,sub-samples=9").starts_with("sub-samples = "));
+    // Over several samples one surface has several depths.
+    assert!(refused("woo92,sub-samples=2").starts_with("same = \"depth\": expected surface"));
+    assert!(refused("burley,stored=midpoint,sub-samples=4,same=object").starts_with("same = \"object\""));
+    assert!("woo92,sub-samples=2,same=surface".parse::<Recipe>().is_ok());
+    assert!("woo92,sub-samples=1".parse::<Recipe>().is_ok());
     assert!(refused("burley,nearest=3").starts_with("nearest = "));
     assert!(refused("burley,bias=1t").starts_with("bias = "));
     assert!(refused("burley,opacity=1").starts_with("opacity = "));
@@ -208,7 +213,7 @@ proptest! {
         let recipe = match text.parse::<Recipe>() {
             Ok(recipe) => recipe,
             Err(error) => {
-                let contradicting = ["min-samples", "compare", "bias", "spread", "min", "max", "nearest"];
+                let contradicting = ["same", "min-samples", "compare", "bias", "spread", "min", "max", "nearest"];
                 prop_assert!(contradicting.contains(&error.field.as_str()), "{}: {}", text, error);
                 return Ok(());
             }

@@ -1,6 +1,6 @@
 use crate::{PresetName, RecipeError};
 use umbrage_bake::Deep;
-use umbrage_depth::{Midpoint, Stored};
+use umbrage_depth::{Midpoint, SameSurface, Stored};
 use umbrage_plane::Bias;
 use umbrage_sample::{Disc, Jittered};
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
@@ -208,6 +208,12 @@ impl Values {
 
     /// What only all fields together can show; `given` are the names of those that were written.
     pub fn check(&self, preset: PresetName, given: &[&str]) -> Result<(), RecipeError> {
+        let several = self.sub_samples.is_some_and(|axis| axis > 1);
+        if self.rule == Rule::Midpoint && several && self.midpoint.same != SameSurface::Surface {
+            // One surface has several depths in a texel then, and would shadow itself all over.
+            let same = if self.midpoint.same == SameSurface::Depth { "depth" } else { "object" };
+            return Err(RecipeError::value("same", same, "surface, with several sub-samples over midpoints"));
+        }
         match preset {
             PresetName::Reeves87 | PresetName::Reeves87Recommended | PresetName::Woo92 => self.check_closer()?,
             PresetName::Burley | PresetName::Fernando => self.check_soft(given)?,

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Mat3, UVec2, Vec3};
 use std::f32::consts::FRAC_PI_4;
-use umbrage_depth::Stored;
+use umbrage_depth::{Midpoint, SameSurface, Stored};
 use umbrage_oracle::{Diagnostic, Plan, diagnose, diagnose_recipe};
 use umbrage_plane::{Kind, View};
 use umbrage_scene::{Light, Material, Mesh, Object, Scene, Shape, gallery};
@@ -245,8 +245,13 @@ fn rugs_duplicates_and_flush_boxes_are_named_where_something_is_stored_between_t
     assert_eq!(stacked(rug(0.001), midpoint), pair("rug", "floor"));
     assert_eq!(stacked(rug(1.0), midpoint), [], "far enough apart");
     assert_eq!(stacked(rug(0.001), Plan { stored: Stored::First, ..midpoint }), [], "nothing is stored between them");
-    let twice = stacked(vec![sheet(0.0, "floor"), sheet(0.0, "again")], midpoint);
-    assert_eq!(twice, [pair("floor", "again"), pair("again", "floor")].concat());
+    // What is drawn twice lies at one depth and is one surface, unless objects keep apart.
+    let twice = || vec![sheet(0.0, "floor"), sheet(0.0, "again")];
+    assert_eq!(stacked(twice(), midpoint), []);
+    let of = |same| Plan { midpoint: Midpoint::default().with_same(same), ..midpoint };
+    let both = [pair("floor", "again"), pair("again", "floor")].concat();
+    assert_eq!(stacked(twice(), of(SameSurface::Object)), both);
+    assert_eq!(stacked(twice(), of(SameSurface::Surface)), both);
     // Along their seam the midpoint lies between the right one's top and the left one's side.
     assert_eq!(stacked(vec![tile(-6.0, "left"), tile(0.0, "right")], midpoint), pair("left", "right"));
     assert_eq!(stacked(vec![tile(-6.0, "left"), tile(4.0, "right")], midpoint), []);
@@ -255,7 +260,73 @@ fn rugs_duplicates_and_flush_boxes_are_named_where_something_is_stored_between_t
         [],
         "a sheet is its own second surface"
     );
-    assert_eq!(stacked(vec![tile(-6.0, "box"), tile(-6.0, "again")], midpoint).len(), 2);
+    assert_eq!(stacked(vec![tile(-6.0, "box"), tile(-6.0, "again")], midpoint), []);
+    assert_eq!(stacked(vec![tile(-6.0, "box"), tile(-6.0, "again")], of(SameSurface::Object)).len(), 2);
+}
+
+#[test]
+fn w92_3_a_sheet_that_lies_over_itself_loses_its_shadow_on_itself_where_one_surface_has_any_depth() {
+    let sheet = |half: f32, height: f32| {
+        let corners = [(-half, half), (half, half), (half, -half), (-half, -half)];
+        Mesh::sheet(corners.map(|(x, z)| Vec3::new(x, height, z)), 1)
+    };
+    let mut scene = gallery::sphere_plane();
+    let size = UVec2::splat(128);
+    scene.lights =
+        vec![Light::directional("sun", DVec3::new(1.0, 3.0, 0.0), DVec3::ZERO, 6.0, 1.0, 100.0, size).unwrap()];
+    let surface = Plan {
+        stored: Stored::Midpoint,
+        midpoint: Midpoint::default().with_same(SameSurface::Surface),
+        ..Plan::default()
+    };
+    let lost = |scene: &Scene, plan: &Plan| {
+        let found = named(scene, plan).into_iter();
+        found.filter(|found| matches!(found, Diagnostic::LostFold { .. })).count()
+    };
+    let mut both = sheet(5.0, 0.0);
+    both.append(&sheet(2.0, 1.5));
+    let mut one = Object::solid("paper", both, Material::matt(Vec3::ONE));
+    one.solid = false;
+    scene.objects = vec![one.clone()];
+    assert_eq!(lost(&scene, &surface), 1);
+    assert_eq!(lost(&scene, &Plan { midpoint: Midpoint::default(), ..surface }), 0);
+    // Two objects, or a solid, keep it.
+    scene.objects = vec![
+        Object { shape: Shape::Mesh(sheet(5.0, 0.0)), ..one.clone() },
+        Object { shape: Shape::Mesh(sheet(2.0, 1.5)), ..one },
+    ];
+    assert_eq!(lost(&scene, &surface), 0);
+    let block = Mesh::cuboid(Vec3::new(-2.0, 1.0, -2.0), Vec3::new(2.0, 2.0, 2.0));
+    let mut blocks = Mesh::cuboid(Vec3::new(-5.0, -1.0, -5.0), Vec3::new(5.0, 0.0, 5.0));
+    blocks.append(&block);
+    scene.objects = vec![Object::solid("blocks", blocks, Material::matt(Vec3::ONE))];
+    assert_eq!(lost(&scene, &surface), 0);
+}
+
+/// Whatever is said is one line, without holes.
+#[test]
+fn every_warning_is_one_line_of_text() {
+    let (light, object, other) = ("lamp".to_string(), "a".to_string(), "b".to_string());
+    let all = [
+        Diagnostic::CoarseTexels {
+            light: light.clone(),
+            casters: 1,
+            of: 2,
+            object: object.clone(),
+            size: 0.1,
+            texel: 0.2,
+            side_needed: 9,
+        },
+        Diagnostic::LargeBias { light: light.clone(), bias: 1.0, casters: 1, of: 2, object: object.clone(), size: 0.1 },
+        Diagnostic::Stacked { light: light.clone(), object: object.clone(), other, gap: 0.1, step: 0.2 },
+        Diagnostic::LostFold { light: light.clone(), object: object.clone(), gap: 0.1 },
+        Diagnostic::Enclosed { light: light.clone(), object, nearest: 0.1, cut: true },
+        Diagnostic::CoarseDepth { light, kind: Kind::Axial, farthest: 1.0, step: 1.0, allowed: 0.1, better: None },
+    ];
+    for found in all {
+        let line = found.to_string();
+        assert!(!line.contains('\n') && !line.contains("  "), "{line}");
+    }
 }
 
 /// One call, one table: each scene and recipe with the warning it raises, and what changes it so that it does not.
