@@ -2,6 +2,7 @@ use crate::Soup;
 use umbrage_bake::{Deep, bake_deep, mix_moments};
 use umbrage_depth::{DeepMap, DepthMap, Map, Tiled};
 use umbrage_plane::View;
+use umbrage_raster::Stats;
 use umbrage_recipe::Recipe;
 use umbrage_scene::Scene;
 
@@ -10,16 +11,16 @@ use umbrage_scene::Scene;
 /// # Panics
 /// As [`Soup::casters`].
 pub fn light_map(recipe: &Recipe, scene: &Scene, view: &View) -> Map {
-    exposed_map(recipe, &[scene], view)
+    exposed_map(recipe, &[scene], view).0
 }
 
 /// The same over an exposure, `moments` being the scene at evenly spread times (EXT-2): deep maps hold the mean of them; of maps of one
-/// surface each texel sees one of them. An empty map of none.
+/// surface each texel sees one of them. An empty map of none. Beside it, what became of the triangles of all moments.
 ///
 /// # Panics
 /// As [`Soup::casters`].
-pub fn exposed_map(recipe: &Recipe, moments: &[&Scene], view: &View) -> Map {
-    recipe.bake_moments(view, moments.iter().map(|scene| Soup::casters(scene, view).into_casting()))
+pub fn exposed_map(recipe: &Recipe, moments: &[&Scene], view: &View) -> (Map, Stats) {
+    recipe.bake_counted(view, moments.iter().map(|scene| Soup::casters(scene, view).into_casting()))
 }
 
 /// Pass 1 over an exposure: each texel sees the scene at one of its moments, drawn once per texel from `seed` (EXT-2). A filter over such a

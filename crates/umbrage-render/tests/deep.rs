@@ -79,7 +79,7 @@ fn ext_2_moments_share_the_light_between_them() {
     assert_eq!(expose(&view, &[], 3, first).tile_count(), 0);
     // A recipe of one surface does the same, whatever its rule.
     let normals: Recipe = "wang-molnar94,stored=normals".parse().unwrap();
-    let Map::Tiled(tiles) = exposed_map(&normals, &moments, &view) else { panic!("one surface") };
+    let Map::Tiled(tiles) = exposed_map(&normals, &moments, &view).0 else { panic!("one surface") };
     let alone = |scene: &Scene| match light_map(&normals, scene, &view) {
         Map::Tiled(tiles) => tiles,
         _ => panic!("one surface"),

@@ -168,7 +168,7 @@ fn closed_in(view: &View, points: &[DVec3], keep_sides: bool) -> Result<View, Fr
         (near, far) = (near - widen, far + widen);
     }
     if keep_sides {
-        return Ok(alike(View::new(view.world_to_eye(), view.projection(), near, far, view.size())?, view));
+        return Ok(alike(&View::new(view.world_to_eye(), view.projection(), near, far, view.size())?, view));
     }
     let (mut least, mut most) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let mut limit = DVec2::INFINITY;
@@ -206,12 +206,12 @@ fn closed_in(view: &View, points: &[DVec3], keep_sides: bool) -> Result<View, Fr
     } else {
         Projection::Orthographic { half, shift }
     };
-    Ok(alike(View::new(view.world_to_eye(), projection, near, far, view.size())?, view))
+    Ok(alike(&View::new(view.world_to_eye(), projection, near, far, view.size())?, view))
 }
 
 /// A view with everything of another that its constructor does not take. A kind that is the natural one of the other's range gives way
 /// to the natural one of the new range.
-fn alike(view: View, other: &View) -> View {
+fn alike(view: &View, other: &View) -> View {
     let natural = other.kind() == Kind::of_range(other.near(), other.far());
     if natural { view.alike(other).with_kind(view.kind()) } else { view.alike(other) }
 }
@@ -253,5 +253,5 @@ pub fn fit(light: &View, ball: Ball) -> Result<View, FrameError> {
             square,
         )?
     };
-    Ok(alike(found.with_size(light.size())?, light))
+    Ok(alike(&found.with_size(light.size())?, light))
 }

@@ -95,7 +95,7 @@ impl Case {
 
     fn bake(&self) -> anyhow::Result<(Recipe, Arc<DeepMap>)> {
         let recipe: Recipe = self.recipe().parse()?;
-        match exposed_map(&recipe, &self.moments.iter().collect::<Vec<_>>(), self.view()) {
+        match exposed_map(&recipe, &self.moments.iter().collect::<Vec<_>>(), self.view()).0 {
             Map::Deep(map) => Ok((recipe, map)),
             _ => anyhow::bail!("a deep recipe bakes a deep map"),
         }
