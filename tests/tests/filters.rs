@@ -118,6 +118,10 @@ impl DepthMap for Tight {
     fn bytes(&self) -> usize {
         self.tiles.bytes()
     }
+
+    fn allocated(&self) -> usize {
+        self.tiles.allocated()
+    }
 }
 
 /// A constant bias whose bounds are too narrow by one unit in the last place, at one end.

@@ -44,6 +44,7 @@
 
 mod caster;
 mod deep;
+mod facets;
 mod moments;
 mod normals;
 mod pass1;
@@ -51,6 +52,7 @@ mod tags;
 
 pub use caster::Caster;
 pub use deep::{BakedDeep, Deep, bake_deep};
+pub use facets::{BakedFacets, Refinement, bake_facets, bake_refined};
 pub use moments::mix_moments;
 pub use normals::bake_by_normals;
 pub use pass1::{Baked, advised_map_sizes, bake, bake_multi};

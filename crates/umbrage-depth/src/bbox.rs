@@ -69,4 +69,8 @@ impl DepthMap for Bbox {
     fn bytes(&self) -> usize {
         size_of_val(self.depths.as_slice())
     }
+
+    fn allocated(&self) -> usize {
+        self.bytes() + size_of::<Self>()
+    }
 }

@@ -102,6 +102,10 @@ impl DepthMap for DeepMap {
     fn bytes(&self) -> usize {
         size_of_val(self.steps.as_slice())
     }
+
+    fn allocated(&self) -> usize {
+        self.bytes() + size_of_val(self.starts.as_slice()) + size_of::<Self>()
+    }
 }
 
 impl Translucent for DeepMap {

@@ -1,4 +1,4 @@
-use crate::{Bbox, DeepMap, DepthMap, Raw, Stored, Tiled, Translucent, rows};
+use crate::{Bbox, DeepMap, DepthMap, FacetMap, Raw, Stored, Tiled, Translucent, rows};
 use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use std::str::FromStr;
@@ -48,6 +48,8 @@ pub enum Map {
     Bbox(Arc<Bbox>),
     /// Tiles: what pass 1 makes.
     Tiled(Arc<Tiled>),
+    /// Which facet each texel sees.
+    Facets(Arc<FacetMap>),
     /// Several surfaces per texel, each letting light through.
     Deep(Arc<DeepMap>),
 }
@@ -59,17 +61,18 @@ macro_rules! each {
             Map::Raw($map) => $answer,
             Map::Bbox($map) => $answer,
             Map::Tiled($map) => $answer,
+            Map::Facets($map) => $answer,
             Map::Deep($map) => $answer,
         }
     };
 }
 
 impl Map {
-    /// The same map in another storage; a deep one stays as it is. Nothing is copied where it is kept so already.
+    /// The same map in another storage; a deep one and one of facets stay as they are. Nothing is copied where it is kept so already.
     #[must_use]
     pub fn kept(self, storage: Storage) -> Self {
         match (storage, self) {
-            (_, kept @ Self::Deep(_))
+            (_, kept @ (Self::Deep(_) | Self::Facets(_)))
             | (Storage::Raw, kept @ Self::Raw(_))
             | (Storage::Bbox, kept @ Self::Bbox(_))
             | (Storage::Tiled, kept @ Self::Tiled(_)) => kept,
@@ -106,6 +109,7 @@ macro_rules! from {
 from!(Raw, Raw);
 from!(Bbox, Bbox);
 from!(Tiled, Tiled);
+from!(FacetMap, Facets);
 from!(DeepMap, Deep);
 
 /// Conversions between storages: all of a map's depths, kept otherwise.
@@ -139,9 +143,9 @@ impl From<&Self> for Map {
     }
 }
 
-/// The nearest surfaces of a deep map: slow as it is, it need not be compiled for every filter.
+/// The look-up of a map that asks its texels one by one: slow as it is, it need not be compiled for every filter.
 #[inline(never)]
-fn nearest<S: Simd>(simd: S, map: &DeepMap, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
+fn one_by_one<S: Simd>(simd: S, map: &impl DepthMap, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
     simd.vectorize(
         #[inline(always)]
         || map.look(simd, TexelRect::of_size(map.view().size()), x, y),
@@ -165,7 +169,8 @@ impl DepthMap for Map {
             Self::Raw(map) => (map.depths(), TexelRect::of_size(map.view().size())),
             Self::Bbox(map) => (map.depths(), map.finite()),
             Self::Tiled(map) => return map.look(simd, within, x, y),
-            Self::Deep(map) => return nearest(simd, map, x, y),
+            Self::Facets(map) => return one_by_one(simd, map.as_ref(), x, y),
+            Self::Deep(map) => return one_by_one(simd, map.as_ref(), x, y),
         };
         rows::look(simd, depths, rect, x, y)
     }
@@ -180,11 +185,20 @@ impl DepthMap for Map {
         each!(self, map => map.translucent())
     }
 
+    #[inline(always)]
+    fn facets(&self) -> Option<&FacetMap> {
+        if let Self::Facets(map) = self { Some(map) } else { None }
+    }
+
     fn stored(&self) -> Stored {
         each!(self, map => map.stored())
     }
 
     fn bytes(&self) -> usize {
         each!(self, map => map.bytes())
+    }
+
+    fn allocated(&self) -> usize {
+        each!(self, map => map.allocated())
     }
 }

@@ -17,6 +17,7 @@
 //! | [`Raw`] | every texel |
 //! | [`Bbox`] | the rectangle around all surfaces |
 //! | [`Tiled`] | 32×32 tiles that hold a surface, with their nearest and farthest depth |
+//! | [`FacetMap`] | which facet each texel sees, and the facets' planes; where asked, finer where one plane does not do |
 //! | [`DeepMap`] | several surfaces per texel, each letting part of the light through |
 //!
 //! [`Map`] is any of them, shared: the one type that the code above a filter knows. A [`Translucent`] is what a deep map lets through.
@@ -46,6 +47,8 @@ mod back_face;
 mod bandlimit;
 mod bbox;
 mod deep;
+mod facet_rule;
+mod facets;
 mod first;
 mod hit;
 mod kept;
@@ -65,6 +68,8 @@ pub use back_face::BackFace;
 pub use bandlimit::bandlimit;
 pub use bbox::Bbox;
 pub use deep::{DeepMap, compress_steps};
+pub use facet_rule::FacetRule;
+pub use facets::{FacetBlock, FacetCells, FacetDepths, FacetMap, FacetSample, FacetTile, NO_FACET};
 pub use first::First;
 pub use hit::Hit;
 pub use kept::{Map, Storage, StorageError};

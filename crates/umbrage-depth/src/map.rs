@@ -1,4 +1,4 @@
-use crate::{Stored, Translucent};
+use crate::{FacetMap, Stored, Translucent};
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::IVec2;
 use std::sync::Arc;
@@ -45,14 +45,24 @@ pub trait DepthMap: Send + Sync {
         None
     }
 
+    /// The map itself, where it knows facets; `None` where it knows depths alone.
+    #[inline(always)]
+    fn facets(&self) -> Option<&FacetMap> {
+        None
+    }
+
     /// Which surface the depths belong to.
     #[inline(always)]
     fn stored(&self) -> Stored {
         Stored::First
     }
 
-    /// Bytes held for depths alone, 4 each, as Reeves' Table 2 counts them: without directories and rectangles.
+    /// Bytes held for depths alone, 4 each, as Reeves' Table 2 counts them: without directories and rectangles. Of maps that keep something
+    /// else, that.
     fn bytes(&self) -> usize;
+
+    /// All bytes that the map holds, directories, tables and itself included.
+    fn allocated(&self) -> usize;
 }
 
 /// [`DepthMap`] of something that stands for another map.
@@ -84,12 +94,21 @@ macro_rules! forward {
                 (**self).translucent()
             }
 
+            #[inline(always)]
+            fn facets(&self) -> Option<&FacetMap> {
+                (**self).facets()
+            }
+
             fn stored(&self) -> Stored {
                 (**self).stored()
             }
 
             fn bytes(&self) -> usize {
                 (**self).bytes()
+            }
+
+            fn allocated(&self) -> usize {
+                (**self).allocated()
             }
         }
     };

@@ -130,4 +130,8 @@ impl DepthMap for Raw {
     fn bytes(&self) -> usize {
         size_of_val(self.depths.as_slice())
     }
+
+    fn allocated(&self) -> usize {
+        self.bytes() + size_of::<Self>()
+    }
 }

@@ -191,4 +191,8 @@ impl DepthMap for Tiled {
     fn bytes(&self) -> usize {
         self.tile_count() * AREA * size_of::<f32>()
     }
+
+    fn allocated(&self) -> usize {
+        self.bytes() + self.directory_bytes() + size_of::<Self>()
+    }
 }

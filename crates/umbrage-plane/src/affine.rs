@@ -120,6 +120,16 @@ impl Decode {
         }
     }
 
+    /// The axial distance of a stored depth at a texel position, in world units; +∞ stays +∞.
+    #[inline(always)]
+    pub fn zeta_of_depth(&self, depth: f32, texel: DVec2) -> f64 {
+        match self.kind {
+            Kind::Axial => f64::from(depth),
+            Kind::Screen => self.zeta(depth),
+            Kind::Radial => f64::from(depth) / self.slant(texel),
+        }
+    }
+
     /// z_s of an axial distance (spec C-2).
     #[inline(always)]
     pub(crate) fn screen(&self, zeta: f64) -> f64 {

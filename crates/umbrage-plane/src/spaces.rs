@@ -206,6 +206,29 @@ impl View {
         }
     }
 
+    /// How much a key ([`View::key`]) changes over the width of a texel along the axis of view: √(width · height) of a texel at a key's
+    /// distance, as a difference of keys there. +∞ for a key of +∞, and beyond the horizon.
+    #[inline(always)]
+    pub fn key_width(&self, key: f64) -> f64 {
+        let zeta = self.decode().zeta_of(key);
+        if key == f64::INFINITY || (self.is_perspective() && (zeta.is_nan() || zeta <= 0.0)) {
+            return f64::INFINITY;
+        }
+        let texel = self.texel_world(zeta);
+        (texel.x * texel.y).sqrt() * self.key_per_world(zeta)
+    }
+
+    /// Change of the key per world unit along the axis, at an axial distance.
+    #[inline(always)]
+    pub fn key_per_world(&self, zeta: f64) -> f64 {
+        let perspective = if self.is_perspective() { 1.0 / (zeta * zeta) } else { 1.0 };
+        match (self.kind, self.is_perspective()) {
+            (Kind::Screen, true) => perspective * (self.far * self.near / (self.far - self.near)),
+            (Kind::Screen, false) => 1.0 / (self.far - self.near),
+            (Kind::Axial | Kind::Radial, _) => perspective,
+        }
+    }
+
     /// Where a texel position lies, as far as the rectangle and the cone can tell.
     #[inline(always)]
     pub fn locate(&self, texel: Vec2) -> Place {

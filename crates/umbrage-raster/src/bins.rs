@@ -98,7 +98,18 @@ impl Bins {
         self.stats
     }
 
-    fn list(&self, tile: UVec2) -> &[u32] {
+    pub(crate) fn window(&self) -> TexelRect {
+        self.window
+    }
+
+    /// A piece by its index, and its corners.
+    pub(crate) fn piece(&self, index: u32) -> (&Piece, &[IVec2]) {
+        let piece = &self.pieces[index as usize];
+        (piece, piece.corners(&self.corners))
+    }
+
+    /// Indices of the pieces that may reach a tile, ascending; none outside [`Bins::tiles`].
+    pub(crate) fn list(&self, tile: UVec2) -> &[u32] {
         if tile.cmpge(self.tiles).any() {
             return &[];
         }

@@ -43,10 +43,12 @@ mod clip;
 mod coverage;
 mod fragments;
 mod setup;
+mod spans;
 
 pub use bins::Bins;
 pub use coverage::Coverage;
 pub use fragments::each_fragment;
+pub use spans::Lines;
 
 use glam::DVec3;
 

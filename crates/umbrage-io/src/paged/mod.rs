@@ -167,6 +167,10 @@ impl DepthMap for Paged {
     fn bytes(&self) -> usize {
         self.pager.resident().1
     }
+
+    fn allocated(&self) -> usize {
+        self.bytes() + self.pager.directory_bytes()
+    }
 }
 
 impl PagedHandle {

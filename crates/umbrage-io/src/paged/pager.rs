@@ -92,6 +92,11 @@ impl Pager {
         self.faults.load(Ordering::Relaxed)
     }
 
+    /// Bytes held to find blocks and pages.
+    pub(super) fn directory_bytes(&self) -> usize {
+        size_of::<Self>() + size_of_val(self.offsets.as_slice()) + 4 * self.offsets.len()
+    }
+
     /// Pages that are kept, and the bytes of their depths.
     pub(super) fn resident(&self) -> (usize, usize) {
         let pages = held(&self.pages);

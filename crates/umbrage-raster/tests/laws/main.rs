@@ -6,5 +6,6 @@ mod meshes;
 mod near;
 mod oracle;
 mod scenes;
+mod spans;
 mod tiles;
 mod triangles;

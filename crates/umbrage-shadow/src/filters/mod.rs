@@ -1,6 +1,7 @@
 //! How the answers are combined: each filter is one way to ask a [`Query`](crate::Query).
 
 mod conditional;
+mod dual_plane;
 mod filtered_depth;
 pub mod integer_first;
 mod pcf;
@@ -8,6 +9,7 @@ mod soft;
 pub mod williams;
 
 pub use conditional::{Conditional, VirtualWhen};
+pub use dual_plane::DualPlane;
 pub use filtered_depth::FilteredDepth;
 pub use integer_first::IntegerFirst;
 pub use pcf::Pcf;

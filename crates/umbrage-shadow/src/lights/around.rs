@@ -221,6 +221,10 @@ impl<M: DepthMap> DepthMap for Face<'_, M> {
     fn bytes(&self) -> usize {
         self.maps[self.own].bytes()
     }
+
+    fn allocated(&self) -> usize {
+        self.maps[self.own].allocated()
+    }
 }
 
 impl<M: DepthMap> Translucent for Face<'_, M> {

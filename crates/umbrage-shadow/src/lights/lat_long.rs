@@ -158,4 +158,8 @@ impl DepthMap for Wrapped {
     fn bytes(&self) -> usize {
         self.0.bytes()
     }
+
+    fn allocated(&self) -> usize {
+        self.0.allocated()
+    }
 }

@@ -43,6 +43,10 @@ impl DepthMap for Layers {
     fn bytes(&self) -> usize {
         4 * self.surfaces.len()
     }
+
+    fn allocated(&self) -> usize {
+        self.bytes()
+    }
 }
 
 impl Translucent for Layers {

@@ -1,0 +1,120 @@
+//! Pass 1 of maps that keep facets.
+
+mod refined;
+
+use crate::pass1::Pass;
+use glam::{IVec2, UVec2};
+use rayon::prelude::*;
+use std::collections::HashMap;
+use std::sync::Arc;
+use umbrage_depth::{FacetCells, FacetDepths, FacetMap, FacetRule, FacetTile, First, NO_FACET, Stored};
+use umbrage_plane::{Facet, Facing, Sampling, TexelRect, View};
+use umbrage_raster::{BIN, Bins, Cull, Stats, Triangle, each_fragment};
+
+/// Cells of a tile.
+const CELLS: usize = (BIN * BIN) as usize;
+
+/// A map of facets, and what became of the triangles.
+#[derive(Clone, Debug)]
+pub struct BakedFacets {
+    /// The map.
+    pub map: Arc<FacetMap>,
+    /// What the rasteriser did with the triangles.
+    pub stats: Stats,
+}
+
+/// How finely the texels of a [`bake_refined`] map are kept where one plane does not do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Refinement {
+    /// Samples along a refined texel's side: 2, 4 or 8.
+    pub fine: u32,
+    /// Slots of a link between two samples, even: 2 to 64/`fine`.
+    pub slots: u32,
+    /// How far a sample may lie off its texel's plane before the texel is refined, in widths of a texel there.
+    pub tolerance: f64,
+}
+
+impl Default for Refinement {
+    fn default() -> Self {
+        Self { fine: 4, slots: 16, tolerance: 0.5 }
+    }
+}
+
+umbrage_plane::builders!([] Refinement { with_fine fine: u32, with_slots slots: u32, with_tolerance tolerance: f64 });
+
+/// [`bake`](crate::bake), keeping which facet each texel sees: the same depths, bit for bit, in less room where facets are larger than a
+/// few texels. Of facets at one key the first triangle's.
+pub fn bake_facets<R: FacetRule>(
+    view: &View,
+    triangles: impl IntoIterator<Item = Triangle>,
+    rule: &R,
+    cull: Cull,
+) -> BakedFacets {
+    let bins = Bins::new(view, TexelRect::of_size(view.size()), cull, triangles);
+    let pass = Pass { view, fine: view, rule, front: |facet: &Facet, _| facet.facing == Facing::Front };
+    let stored = match (rule.stored(), cull) {
+        (Stored::First, Cull::Front) => Stored::BackFace,
+        (stored, _) => stored,
+    };
+    let depths = FacetDepths::of(view);
+    let tiles = by_tile(view, |tile| {
+        let cells = pass.cells(&bins, tile).0?;
+        let origin = (tile * BIN).as_ivec2();
+        let mut texels = vec![NO_FACET; CELLS];
+        let (mut planes, mut index) = (Vec::new(), HashMap::new());
+        bins.tile(tile, |facet, coverage| {
+            each_fragment(view, origin, facet, coverage, |cell, _, key| {
+                if texels[cell] == NO_FACET && key == rule.key(&cells[cell]) {
+                    texels[cell] = *index.entry(facet.triangle).or_insert_with(|| {
+                        planes.push(facet.plane);
+                        planes.len() as u32 - 1
+                    });
+                }
+            });
+        });
+        pack(view, &depths, tile, 1, &FacetCells { planes: &planes, texels: &texels, blocks: &[] })
+    });
+    BakedFacets { map: Arc::new(FacetMap::from_tiles(*view, stored, 1, 1, tiles)), stats: bins.stats() }
+}
+
+/// The nearest facet of each texel and, where the surface over a texel is not one plane, of `fine` × `fine` samples in it with links between
+/// them: what [`DualPlane`] asks. Texels are sampled at their centres, whatever the view's own sampling.
+///
+/// A texel is refined when one of its samples, or the first sample beyond its right or lower side, lies off its own plane by more than
+/// the tolerance. A link is kept between neighbouring samples of refined texels whose facets' planes do not meet there.
+///
+/// [`DualPlane`]: https://docs.rs/umbrage-shadow
+///
+/// # Panics
+/// When `fine` is not 2, 4 or 8, or `slots` is odd, 0 or more than 64/`fine`.
+pub fn bake_refined(
+    view: &View,
+    triangles: impl IntoIterator<Item = Triangle>,
+    refinement: &Refinement,
+) -> BakedFacets {
+    let Refinement { fine, slots, .. } = *refinement;
+    assert!(matches!(fine, 2 | 4 | 8), "{fine} samples along a texel's side");
+    assert!(slots > 0 && slots.is_multiple_of(2) && slots * fine <= 64, "{slots} slots with {fine} samples");
+    let view = &view.with_sampling(Sampling::Centre);
+    let bins = Bins::new(view, TexelRect::of_size(view.size()), Cull::None, triangles);
+    let depths = FacetDepths::of(view);
+    let tiles = by_tile(view, |tile| {
+        let found = refined::tile(view, &bins, tile, refinement)?;
+        pack(view, &depths, tile, fine, &found.cells())
+    });
+    let map = FacetMap::from_tiles(*view, umbrage_depth::DepthRule::stored(&First), fine, slots, tiles);
+    BakedFacets { map: Arc::new(map), stats: bins.stats() }
+}
+
+/// All tiles of a map, in parallel.
+fn by_tile(view: &View, tile: impl Fn(UVec2) -> Option<FacetTile> + Sync) -> Vec<Option<FacetTile>> {
+    let grid = view.size().map(|side| side.div_ceil(BIN));
+    (0..grid.element_product()).into_par_iter().map(|index| tile(UVec2::new(index % grid.x, index / grid.x))).collect()
+}
+
+fn pack(view: &View, depths: &FacetDepths, tile: UVec2, fine: u32, cells: &FacetCells<'_>) -> Option<FacetTile> {
+    let origin = (tile * BIN).as_ivec2();
+    let valid = (view.size() - tile * BIN).min(UVec2::splat(BIN));
+    FacetTile::new(cells, origin, valid, fine, |texel: IVec2, key| depths.depth(texel, key))
+}

@@ -1,0 +1,277 @@
+//! One tile of a refined map: texels, samples, and where the first surface changes between them.
+
+use super::{CELLS, Refinement};
+use glam::{DVec2, IVec2, UVec2};
+use std::ops::Range;
+use umbrage_depth::{FacetBlock, FacetCells, NO_FACET};
+use umbrage_plane::{Affine, TexelRect, View};
+use umbrage_raster::{BIN, Bins, Lines};
+
+/// 1/256 texel: what corners are snapped to, and all places here are multiples of.
+const SUBTEXELS: i32 = 256;
+const SIDE: usize = BIN as usize;
+
+/// What is kept of a tile.
+pub(super) struct Found {
+    planes: Vec<Affine>,
+    texels: Vec<u32>,
+    blocks: Vec<FacetBlock>,
+}
+
+impl Found {
+    pub fn cells(&self) -> FacetCells<'_> {
+        FacetCells { planes: &self.planes, texels: &self.texels, blocks: &self.blocks }
+    }
+}
+
+/// The nearest facets at the points of a square grid.
+struct Nearest {
+    /// Points along a side.
+    side: usize,
+    keys: Vec<f64>,
+    facets: Vec<u32>,
+}
+
+impl Nearest {
+    fn new(side: usize) -> Self {
+        Self { side, keys: vec![f64::INFINITY; side * side], facets: vec![NO_FACET; side * side] }
+    }
+
+    /// Offers a plane to the points from `from` to `to` of a row; `key` is its key at the first point of the row, `dx` its change from point
+    /// to point.
+    #[inline(always)]
+    fn offer(&mut self, row: usize, points: Range<usize>, key: f64, dx: f64, facet: u32) -> bool {
+        let first = row * self.side;
+        let keys = &mut self.keys[first + points.start..first + points.end];
+        let facets = &mut self.facets[first + points.start..first + points.end];
+        let mut any = false;
+        for (i, (nearest, own)) in keys.iter_mut().zip(facets).enumerate() {
+            let key = key + dx * (points.start + i) as f64;
+            let nearer = key < *nearest;
+            *nearest = if nearer { key } else { *nearest };
+            *own = if nearer { facet } else { *own };
+            any |= nearer;
+        }
+        any
+    }
+}
+
+/// The points of a grid with this step that lie in an interval: those at first + k·step, k from 0 to count.
+fn points(along: &Range<i32>, first: i32, step: i32, count: usize) -> Range<usize> {
+    let index = |at: i32| (at - first + step - 1).div_euclid(step).clamp(0, count as i32) as usize;
+    index(along.start)..index(along.end)
+}
+
+/// A place of the map in texels, of one in 1/256 texel.
+fn texels(at: IVec2) -> DVec2 {
+    at.as_dvec2() * (1.0 / f64::from(SUBTEXELS))
+}
+
+/// A tile's texels, samples and links; `None` when nothing reaches it.
+pub(super) fn tile(view: &View, bins: &Bins, tile: UVec2, refinement: &Refinement) -> Option<Found> {
+    if bins.is_empty_tile(tile) {
+        return None;
+    }
+    let origin = (tile * BIN).as_ivec2() * SUBTEXELS;
+    let fine = refinement.fine as usize;
+    let step = SUBTEXELS / fine as i32;
+    let mut planes: Vec<Affine> = Vec::new();
+    let own = TexelRect::new(origin, origin + BIN as i32 * SUBTEXELS);
+    let centres = nearest(bins, own, SUBTEXELS, SIDE, &mut planes);
+    // One sample more to the right and downward: what lies just beyond a texel belongs to the question whether it is refined.
+    let ringed = TexelRect::new(own.min, own.max + step);
+    let samples = nearest(bins, ringed, step, SIDE * fine + 1, &mut planes);
+    let surface = Surface { view, planes: &planes, tolerance: refinement.tolerance };
+    let place = |sample: usize| {
+        let (x, y) = (sample % samples.side, sample / samples.side);
+        texels(origin + step / 2 + step * IVec2::new(x as i32, y as i32))
+    };
+    let mut blocks = Vec::new();
+    let whole = (view.size() - tile * BIN).min(UVec2::splat(BIN)).as_usizevec2();
+    for texel in 0..CELLS {
+        let (x, y) = (texel % SIDE, texel / SIDE);
+        if x >= whole.x || y >= whole.y {
+            continue;
+        }
+        let facet = centres.facets[texel];
+        let around =
+            (0..=fine).flat_map(|j| (0..=fine).map(move |i| (y * fine + j) * (SIDE * fine + 1) + x * fine + i));
+        // Beyond the map nothing is: its border is no edge.
+        let on_map = |sample: &usize| place(*sample).cmplt(view.size().as_dvec2()).all();
+        if around.filter(on_map).all(|sample| surface.agree(facet, samples.facets[sample], place(sample))) {
+            continue;
+        }
+        let inside = (0..fine).flat_map(|j| (0..fine).map(move |i| (y * fine + j) * (SIDE * fine + 1) + x * fine + i));
+        let samples = inside.map(|sample| samples.facets[sample]).collect();
+        blocks.push(FacetBlock { texel: texel as u16, samples, links: Vec::new() });
+    }
+    if !blocks.is_empty() {
+        let links = Links { bins, region: ringed, step, slots: refinement.slots as i32, samples: &samples };
+        links.fill(&surface, &mut blocks, fine);
+    }
+    let texels = centres.facets;
+    let nothing = blocks.is_empty() && texels.iter().all(|facet| *facet == NO_FACET);
+    (!nothing).then_some(Found { planes, texels, blocks })
+}
+
+/// The nearest facets at the points of a region's grid, `side` points a side. Planes that are nearest somewhere are added to `planes`.
+fn nearest(bins: &Bins, region: TexelRect, step: i32, side: usize, planes: &mut Vec<Affine>) -> Nearest {
+    let mut nearest = Nearest::new(side);
+    let first = region.min + step / 2;
+    // Spans come facet by facet.
+    let mut last: Option<(u32, u32)> = None;
+    bins.spans(region, Lines::Rows, step, |facet, y, along| {
+        let points = points(&along, first.x, step, side);
+        if points.is_empty() {
+            return;
+        }
+        let index = match last {
+            Some((triangle, index)) if triangle == facet.triangle => index,
+            _ => planes.len() as u32,
+        };
+        let key = facet.plane.at(texels(IVec2::new(first.x, y)));
+        let dx = facet.plane.dx * (f64::from(step) / f64::from(SUBTEXELS));
+        let row = ((y - first.y) / step) as usize;
+        if nearest.offer(row, points, key, dx, index) && index as usize == planes.len() {
+            planes.push(facet.plane);
+        }
+        if (index as usize) < planes.len() {
+            last = Some((facet.triangle, index));
+        }
+    });
+    nearest
+}
+
+/// Planes over texels, and which of them are one surface.
+struct Surface<'a> {
+    view: &'a View,
+    planes: &'a [Affine],
+    tolerance: f64,
+}
+
+impl Surface<'_> {
+    /// The key of a facet at a place; +∞ for none.
+    fn key(&self, facet: u32, at: DVec2) -> f64 {
+        self.planes.get(facet as usize).map_or(f64::INFINITY, |plane| plane.at(at))
+    }
+
+    /// Whether a sample lies on its texel's own plane, to the tolerance.
+    fn agree(&self, texel: u32, sample: u32, at: DVec2) -> bool {
+        if texel == sample {
+            return true;
+        }
+        let (own, found) = (self.key(texel, at), self.key(sample, at));
+        (own - found).abs() <= self.tolerance * self.view.key_width(found.min(own))
+    }
+
+    /// Whether two planes meet between two places: at both they are one, but for roundings.
+    fn meet(&self, a: u32, b: u32, places: [DVec2; 2]) -> bool {
+        places.into_iter().all(|at| {
+            let (a, b) = (self.key(a, at), self.key(b, at));
+            (a - b).abs() <= 4.0 * f64::EPSILON.sqrt() * self.view.key_width(a.min(b))
+        })
+    }
+}
+
+/// Links between samples, and what is seen along them.
+struct Links<'a> {
+    bins: &'a Bins,
+    region: TexelRect,
+    step: i32,
+    slots: i32,
+    samples: &'a Nearest,
+}
+
+/// A link from a sample to its neighbour.
+struct Link {
+    /// Which block, and its number there.
+    block: usize,
+    number: u16,
+    /// Index of the sample in the grid.
+    sample: usize,
+}
+
+impl Links<'_> {
+    fn fill(&self, surface: &Surface<'_>, blocks: &mut [FacetBlock], fine: usize) {
+        for lines in [Lines::Rows, Lines::Columns] {
+            self.fill_lines(lines, surface, blocks, fine);
+        }
+        for block in blocks {
+            block.links.sort_unstable();
+        }
+    }
+
+    /// All links along rows, or along columns.
+    fn fill_lines(&self, lines: Lines, surface: &Surface<'_>, blocks: &mut [FacetBlock], fine: usize) {
+        let side = self.samples.side;
+        let (next, down) = if lines == Lines::Rows { (1, 0) } else { (side, 1) };
+        // By line, then along it.
+        let mut links: Vec<Vec<Link>> = (0..side).map(|_| Vec::new()).collect();
+        let map = surface.view.size().as_dvec2();
+        for (index, block) in blocks.iter().enumerate() {
+            let texel = usize::from(block.texel);
+            for number in 0..fine * fine {
+                let (x, y) = (texel % SIDE * fine + number % fine, texel / SIDE * fine + number / fine);
+                let sample = y * side + x;
+                let (a, b) = (self.samples.facets[sample], self.samples.facets[sample + next]);
+                let ends = [self.place(sample), self.place(sample + next)];
+                if a == b || ends[1].cmpge(map).any() || surface.meet(a, b, ends) {
+                    continue;
+                }
+                let line = if lines == Lines::Rows { y } else { x };
+                links[line].push(Link { block: index, number: (2 * number + down) as u16, sample });
+            }
+        }
+        let along = |sample: usize| if lines == Lines::Rows { sample % side } else { sample / side };
+        for line in &mut links {
+            line.sort_unstable_by_key(|link| along(link.sample));
+        }
+        let slots = self.slots as usize;
+        let mut seen: Vec<Vec<f64>> = links.iter().map(|line| vec![f64::INFINITY; line.len() * slots]).collect();
+        let min = if lines == Lines::Rows { self.region.min } else { IVec2::new(self.region.min.y, self.region.min.x) };
+        let (first, gap) = (min + self.step / 2, self.step / self.slots);
+        self.bins.spans(self.region, lines, self.step, |facet, across, span| {
+            let line = ((across - first.y) / self.step) as usize;
+            if links[line].is_empty() {
+                return;
+            }
+            // Links whose end lies behind the span's start, as far as they begin before its end.
+            let from =
+                links[line].partition_point(|link| first.x + self.step * (along(link.sample) as i32 + 1) <= span.start);
+            for (link, keys) in links[line].iter().zip(seen[line].chunks_exact_mut(slots)).skip(from) {
+                let begin = first.x + self.step * along(link.sample) as i32;
+                if begin >= span.end {
+                    break;
+                }
+                let slot = |index: i32| begin + gap / 2 + gap * index;
+                for index in points(&span, slot(0), gap, slots) {
+                    let at = slot(index as i32);
+                    let at = if lines == Lines::Rows { IVec2::new(at, across) } else { IVec2::new(across, at) };
+                    keys[index] = keys[index].min(facet.plane.at(texels(at)));
+                }
+            }
+        });
+        for (line, seen) in links.iter().zip(&seen) {
+            for (link, keys) in line.iter().zip(seen.chunks_exact(slots)) {
+                let (a, b) = (self.samples.facets[link.sample], self.samples.facets[link.sample + next]);
+                let ends = [self.place(link.sample), self.place(link.sample + next)];
+                let own = |(index, key): (usize, &f64)| {
+                    let at = ends[0].lerp(ends[1], (index as f64 + 0.5) / slots as f64);
+                    let off = |facet: u32| {
+                        let own = surface.key(facet, at);
+                        if own == *key { 0.0 } else { (own - key).abs() }
+                    };
+                    off(a) <= off(b)
+                };
+                let leading = keys.iter().enumerate().take_while(|slot| own(*slot)).count().min(slots - 1);
+                blocks[link.block].links.push((link.number, leading as u8));
+            }
+        }
+    }
+
+    fn place(&self, sample: usize) -> DVec2 {
+        let side = self.samples.side;
+        let at = IVec2::new((sample % side) as i32, (sample / side) as i32);
+        texels(self.region.min + self.step / 2 + self.step * at)
+    }
+}

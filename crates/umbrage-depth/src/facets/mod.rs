@@ -1,0 +1,199 @@
+//! Maps of facets: which flat piece of surface a texel sees, instead of how far away it is.
+
+mod packed;
+mod tile;
+
+use crate::{DepthMap, Stored, TILE, rows};
+use glam::{DVec2, IVec2, UVec2};
+pub use tile::{FacetBlock, FacetCells, FacetTile, NO_FACET};
+use umbrage_plane::{Affine, Decode, DepthRange, TexelRect, View};
+
+/// log₂ of [`TILE`].
+const SHIFT: u32 = TILE.trailing_zeros();
+
+/// A map that keeps the *facet* of each texel and each facet's plane once per tile. Depths and slopes are those of the plane, so that a
+/// look-up knows not only how far the caster is at the texel's centre but where it is anywhere, and large facets take next to no room.
+///
+/// Without refinement (`fine` 1) it is a storage like the others: planes keep all their bits, and every depth is the one that pass 1 would
+/// have stored, bit for bit. With it, a texel over which the surface is not one plane is kept as `fine` × `fine` samples with
+/// *links* between neighbours: how far from one to the next the first surface changes. Planes are then rounded to twelve bytes,
+/// which no comparison that allows for roundings notices. Where facets are as small as texels, a tile keeps depths with slopes.
+///
+/// Umbrage's own; silhouettes in texels are after Sen, Cammarano & Hanrahan 2003, facets in texels after Lecocq et al. 2014.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FacetMap {
+    view: View,
+    stored: Stored,
+    decode: Decode,
+    /// The near plane's key, as it is stored.
+    nearest: f32,
+    fine: u32,
+    slots: u32,
+    grid: UVec2,
+    tiles: Vec<Option<FacetTile>>,
+}
+
+/// A sample of a facet map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FacetSample {
+    /// Its facet's plane, over texels of the map; a key of +∞ everywhere where there is none.
+    pub plane: Affine,
+    /// The side of what it stands for, texels: 1, or 1/fine in a refined texel.
+    pub side: f64,
+}
+
+/// What a facet map makes of keys: apart from the map, so that tiles can be packed before it exists.
+#[derive(Clone, Copy, Debug)]
+pub struct FacetDepths {
+    decode: Decode,
+    nearest: f32,
+    view: View,
+}
+
+impl FacetDepths {
+    /// Of a map of `view`.
+    pub fn of(view: &View) -> Self {
+        Self { decode: view.decode(), nearest: view.key(view.near()) as f32, view: *view }
+    }
+
+    /// The depth that a texel with a facet of this key stores; what is nearer than the near plane is at it (C-10).
+    #[inline(always)]
+    pub fn depth(&self, texel: IVec2, key: f64) -> f32 {
+        let at = self.view.sampling().position(texel);
+        rows::kept(self.decode.depth(key as f32, at).max(self.decode.depth(self.nearest, at)))
+    }
+}
+
+impl FacetMap {
+    /// From all tiles of a map of `view`, row by row from the top; `None` for those without a surface. Refined texels are of `fine` × `fine`
+    /// samples and links of `slots` slots.
+    ///
+    /// # Panics
+    /// When there is not one entry for each tile: ⌈width/32⌉·⌈height/32⌉; or when `fine` or `slots` is 0.
+    pub fn from_tiles(view: View, stored: Stored, fine: u32, slots: u32, tiles: Vec<Option<FacetTile>>) -> Self {
+        let grid = view.size().map(|side| side.div_ceil(TILE));
+        assert_eq!(tiles.len(), grid.element_product() as usize, "tiles of a map of {} texels", view.size());
+        assert!(fine > 0 && slots > 0, "{fine} samples, {slots} slots");
+        let FacetDepths { decode, nearest, .. } = FacetDepths::of(&view);
+        Self { view, stored, decode, nearest, fine, slots, grid, tiles }
+    }
+
+    /// Samples along a refined texel's side.
+    pub fn fine(&self) -> u32 {
+        self.fine
+    }
+
+    /// Refined texels.
+    pub fn refined(&self) -> usize {
+        self.tiles.iter().flatten().map(FacetTile::refined).sum()
+    }
+
+    /// The tile of a texel, with the tile's origin and the texel's place in it; `None` where no surface is kept and outside the map.
+    #[inline(always)]
+    fn tile(&self, texel: IVec2) -> Option<(&FacetTile, IVec2, UVec2)> {
+        if !TexelRect::of_size(self.view.size()).contains(texel) {
+            return None;
+        }
+        let (tile, at) = (texel.as_uvec2() >> SHIFT, texel.as_uvec2() & (TILE - 1));
+        let kept = self.tiles[(tile.y * self.grid.x + tile.x) as usize].as_ref()?;
+        Some((kept, (tile << SHIFT).as_ivec2(), at))
+    }
+
+    /// The sample at a place of the finer grid, which has [`FacetMap::fine`] columns and rows for each texel. Nothing is outside the map.
+    #[inline(always)]
+    pub fn sample(&self, at: IVec2) -> FacetSample {
+        let fine = self.fine as i32;
+        let texel = IVec2::new(at.x.div_euclid(fine), at.y.div_euclid(fine));
+        let nothing = FacetSample { plane: tile::NOTHING, side: 1.0 };
+        let Some((tile, origin, within)) = self.tile(texel) else { return nothing };
+        let place = at - texel * fine;
+        let sample = (place.y * fine + place.x) as usize;
+        if let Some(plane) = tile.sample(origin, within, sample, (fine * fine) as usize) {
+            return FacetSample { plane, side: 1.0 / f64::from(fine) };
+        }
+        let plane = match tile.plane(origin, within) {
+            tile::Stored::Plane(plane) => plane,
+            tile::Stored::Depth(depth) => Affine::constant(self.key(texel, depth)),
+        };
+        FacetSample { plane, side: 1.0 }
+    }
+
+    /// Where the first surface changes on the way from a sample of the finer grid to its neighbour to the right, or downward: 0 at the
+    /// sample, 1 at the neighbour. `None` where no link is kept: their planes meet, or neither is in a refined texel.
+    #[inline(always)]
+    pub fn link(&self, at: IVec2, down: bool) -> Option<f64> {
+        let fine = self.fine as i32;
+        let texel = IVec2::new(at.x.div_euclid(fine), at.y.div_euclid(fine));
+        let (tile, _, within) = self.tile(texel)?;
+        let place = at - texel * fine;
+        let link = 2 * (place.y * fine + place.x) as usize + usize::from(down);
+        let slots = tile.link(within, link, (fine * fine) as usize)?;
+        Some(f64::from(slots) / f64::from(self.slots))
+    }
+
+    /// The key of a stored depth.
+    fn key(&self, texel: IVec2, depth: f32) -> f64 {
+        if depth == f32::INFINITY {
+            return f64::INFINITY;
+        }
+        let at: DVec2 = self.view.sampling().position(texel);
+        self.view.key(self.decode.zeta_of_depth(depth, at))
+    }
+}
+
+impl DepthMap for FacetMap {
+    fn view(&self) -> &View {
+        &self.view
+    }
+
+    #[inline(always)]
+    fn depth(&self, texel: IVec2) -> f32 {
+        let Some((tile, origin, within)) = self.tile(texel) else { return f32::INFINITY };
+        match tile.plane(origin, within) {
+            tile::Stored::Depth(depth) => depth,
+            tile::Stored::Plane(plane) => {
+                let at = self.view.sampling().position(texel);
+                let depth = self.decode.depth(plane.at(at) as f32, at);
+                rows::kept(depth.max(self.decode.depth(self.nearest, at)))
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn range(&self, rect: TexelRect) -> DepthRange {
+        let whole = TexelRect::of_size(self.view.size());
+        let touched = whole.intersect(rect);
+        if touched.is_empty() {
+            return DepthRange::NOTHING;
+        }
+        let (low, high) = (touched.min.as_uvec2() >> SHIFT, (touched.max - 1).as_uvec2() >> SHIFT);
+        if (high - low + 1).element_product() > 16 {
+            return DepthRange::UNKNOWN;
+        }
+        let mut range = (!whole.encloses(rect)).then_some(DepthRange::NOTHING);
+        for y in low.y..=high.y {
+            for x in low.x..=high.x {
+                let tile = self.tiles[(y * self.grid.x + x) as usize].as_ref();
+                let own = tile.map_or(DepthRange::NOTHING, |tile| tile.range);
+                range = Some(range.map_or(own, |range| range.union(own)));
+            }
+        }
+        range.unwrap_or(DepthRange::NOTHING)
+    }
+
+    fn stored(&self) -> Stored {
+        self.stored
+    }
+
+    fn facets(&self) -> Option<&FacetMap> {
+        Some(self)
+    }
+
+    fn bytes(&self) -> usize {
+        self.tiles.iter().flatten().map(FacetTile::bytes).sum()
+    }
+
+    fn allocated(&self) -> usize {
+        self.bytes() + size_of_val(self.tiles.as_slice()) + size_of::<Self>()
+    }
+}

@@ -1,0 +1,39 @@
+/// Small numbers of equal width, 0, 1, 2, 4, 8 or 16 bits each, side by side.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Packed {
+    /// log₂ of the width; `None` where all numbers are 0 and nothing is kept.
+    log: Option<u32>,
+    words: Box<[u32]>,
+}
+
+impl Packed {
+    /// The narrowest that holds all numbers, which are below 2¹⁶.
+    pub fn new(numbers: &[u32]) -> Self {
+        let most = numbers.iter().copied().max().unwrap_or(0);
+        if most == 0 {
+            return Self { log: None, words: Box::default() };
+        }
+        let log = (0..=4).find(|log| most >> (1 << log) == 0).expect("numbers below 2¹⁶");
+        Self::of_width(log, numbers)
+    }
+
+    /// Each number in 2^`log` bits.
+    pub fn of_width(log: u32, numbers: &[u32]) -> Self {
+        let per_word = 32 >> log;
+        let word = |numbers: &[u32]| numbers.iter().zip(0..).fold(0, |word, (number, i)| word | number << (i << log));
+        Self { log: Some(log), words: numbers.chunks(per_word).map(word).collect() }
+    }
+
+    #[inline(always)]
+    pub fn get(&self, index: usize) -> u32 {
+        let Some(log) = self.log else { return 0 };
+        let shift = 5 - log;
+        let word = self.words[index >> shift];
+        let place = (index as u32 & ((1 << shift) - 1)) << log;
+        word >> place & (u32::MAX >> (32 - (1 << log)))
+    }
+
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.words.as_ref())
+    }
+}

@@ -1,0 +1,327 @@
+use super::packed::Packed;
+use crate::TILE;
+use glam::{DVec2, IVec2, UVec2};
+use half::f16;
+use std::collections::BTreeMap;
+use umbrage_plane::{Affine, DepthRange};
+
+/// Texels of a tile.
+const AREA: usize = (TILE * TILE) as usize;
+
+/// Where no facet is: no index of a plane.
+pub const NO_FACET: u32 = u32::MAX;
+
+/// The plane of nothing: infinitely far.
+pub(super) const NOTHING: Affine = Affine::constant(f64::INFINITY);
+
+/// Most bytes of a texel, on average over a tile, for which it keeps refined texels.
+const MOST_WITH_BLOCKS: usize = 10;
+
+/// A texel that is kept as several samples.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FacetBlock {
+    /// Index of the texel in its tile: row · [`TILE`] + column.
+    pub texel: u16,
+    /// The plane of each sample, row by row, as in [`FacetCells::texels`].
+    pub samples: Vec<u32>,
+    /// Links that are kept, in order: 2 · sample for the one to the right, one more for the one downward; and how many of the link's
+    /// slots, counted from the sample, see its surface before another one is seen.
+    pub links: Vec<(u16, u8)>,
+}
+
+/// What pass 1 found in a tile.
+#[derive(Clone, Copy, Debug)]
+pub struct FacetCells<'a> {
+    /// Planes over texels of the map; those that nothing refers to are left out.
+    pub planes: &'a [Affine],
+    /// The plane of each texel's facet, row by row; [`NO_FACET`] where there is none and beyond the map.
+    pub texels: &'a [u32],
+    /// Texels that are kept as several samples, in order.
+    pub blocks: &'a [FacetBlock],
+}
+
+/// Planes of a tile, with or without all bits.
+#[derive(Clone, Debug, PartialEq)]
+enum Planes {
+    /// Over the map's texels, unrounded.
+    Exact(Box<[Affine]>),
+    /// About the tile's middle: key less `base`, and change per texel, rounded to f32.
+    Near { base: f64, planes: Box<[[f32; 3]]> },
+}
+
+/// Texels of a tile.
+#[derive(Clone, Debug, PartialEq)]
+enum Cells {
+    /// By an index into a table.
+    Table { planes: Planes, texels: Packed },
+    /// Depths as any other map keeps them: facets are no larger than texels here.
+    Depths(Box<[f32]>),
+    /// Each texel with a plane of its own: its key less `base` at the centre, and change per texel.
+    Own { base: f64, keys: Box<[f32]>, slopes: Box<[[f16; 2]]> },
+}
+
+/// Samples of refined texels, block after block.
+#[derive(Clone, Debug, PartialEq)]
+struct Blocks {
+    /// Refined texels: bit x of row y.
+    refined: [u32; TILE as usize],
+    /// Blocks before each row.
+    before: [u16; TILE as usize],
+    samples: Packed,
+    /// Links that are kept: a bit for each in the order of [`FacetBlock::links`], words of 32 for each block.
+    kept: Box<[u32]>,
+    /// Links before each block.
+    first: Box<[u32]>,
+    places: Packed,
+}
+
+/// A tile of a [`FacetMap`](crate::FacetMap) that holds a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FacetTile {
+    cells: Cells,
+    blocks: Option<Box<Blocks>>,
+    pub(super) range: DepthRange,
+}
+
+impl FacetTile {
+    /// Packs a tile whose upper left texel is `origin`. `depth` gives the depth of a key at a texel, as the map's look-up does; texels from
+    /// `valid` on are beyond the map. `fine` is the number of samples along a refined texel's side; with 1, planes keep all their bits and
+    /// the tile gives the same depths as the one it is made of, otherwise they are rounded to twelve bytes.
+    ///
+    /// `None` when no texel and no sample has a facet.
+    pub fn new(
+        cells: &FacetCells<'_>,
+        origin: IVec2,
+        valid: UVec2,
+        fine: u32,
+        depth: impl Fn(IVec2, f64) -> f32,
+    ) -> Option<Self> {
+        let all = || cells.texels.iter().chain(cells.blocks.iter().flat_map(|block| &block.samples));
+        if all().all(|plane| *plane == NO_FACET) {
+            return None;
+        }
+        let middle = origin.as_dvec2() + 0.5 * f64::from(TILE);
+        let texel_of = |index: usize| IVec2::new((index % TILE as usize) as i32, (index / TILE as usize) as i32);
+        let plane_of = |plane: u32| cells.planes.get(plane as usize).copied().unwrap_or(NOTHING);
+        let inside = |index: &usize| texel_of(*index).cmplt(valid.as_ivec2()).all();
+        let mut range: Option<DepthRange> = None;
+        let mut base = f64::INFINITY;
+        let mut depths = vec![f32::INFINITY; AREA];
+        for index in (0..AREA).filter(inside) {
+            let texel = origin + texel_of(index);
+            let key = plane_of(cells.texels[index]).at(texel.as_dvec2() + 0.5);
+            base = base.min(key);
+            depths[index] = depth(texel, key);
+            let one = DepthRange { min: depths[index], max: depths[index] };
+            range = Some(range.map_or(one, |range| range.union(one)));
+        }
+        let range = range.unwrap_or(DepthRange::NOTHING);
+        let exact = fine == 1;
+        let base = if base.is_finite() { base } else { 0.0 };
+        let table = Table::new(cells, all(), |plane| Self::near(&plane_of(plane), base, middle), exact);
+        let blocks = (!cells.blocks.is_empty()).then(|| Box::new(Blocks::new(cells, &table, fine)));
+        let texels = Packed::new(&cells.texels.iter().map(|plane| table.index[plane]).collect::<Vec<_>>());
+        let (small, bytes) = (table.kept.len() <= 1 << 16, table.bytes(exact) + texels.bytes());
+        let own = AREA * if exact { size_of::<f32>() } else { size_of::<f32>() + size_of::<[f16; 2]>() };
+        let with_blocks = blocks.as_ref().map_or(0, |blocks| blocks.bytes());
+        let blocks = blocks.filter(|_| small && bytes + with_blocks <= MOST_WITH_BLOCKS * AREA);
+        if small && (blocks.is_some() || bytes < own) {
+            let planes = table.planes(cells, exact, base);
+            return Some(Self { cells: Cells::Table { planes, texels }, blocks, range });
+        }
+        if exact {
+            return Some(Self { cells: Cells::Depths(depths.into()), blocks: None, range });
+        }
+        let one = |(index, plane): (usize, &u32)| {
+            let plane = plane_of(*plane);
+            let key = plane.at((origin + texel_of(index)).as_dvec2() + 0.5) - base;
+            (key as f32, [f16::from_f64(plane.dx), f16::from_f64(plane.dy)])
+        };
+        let (keys, slopes): (Vec<f32>, Vec<[f16; 2]>) = cells.texels.iter().enumerate().map(one).unzip();
+        Some(Self { cells: Cells::Own { base, keys: keys.into(), slopes: slopes.into() }, blocks: None, range })
+    }
+
+    /// A plane about the tile's middle, in three floats.
+    fn near(plane: &Affine, base: f64, middle: DVec2) -> [f32; 3] {
+        [(plane.at(middle) - base) as f32, plane.dx as f32, plane.dy as f32]
+    }
+
+    /// The plane of a texel, over the map's texels; `depth` makes the key of a depth that is kept as such.
+    #[inline(always)]
+    pub(super) fn plane(&self, origin: IVec2, at: UVec2) -> Stored {
+        let index = (at.y * TILE + at.x) as usize;
+        match &self.cells {
+            Cells::Table { planes, texels } => Stored::Plane(planes.get(texels.get(index), origin)),
+            Cells::Depths(depths) => Stored::Depth(depths[index]),
+            Cells::Own { base, keys, slopes } => {
+                let [dx, dy] = slopes[index].map(f64::from);
+                let key = *base + f64::from(keys[index]);
+                if key == f64::INFINITY {
+                    return Stored::Plane(NOTHING);
+                }
+                let centre = (origin + at.as_ivec2()).as_dvec2() + 0.5;
+                Stored::Plane(Affine { c: key - dx * centre.x - dy * centre.y, dx, dy })
+            }
+        }
+    }
+
+    /// The index of a texel's block, where it is refined.
+    #[inline(always)]
+    fn block(&self, at: UVec2) -> Option<(&Blocks, usize)> {
+        let blocks = self.blocks.as_deref()?;
+        let row = blocks.refined[at.y as usize];
+        let before = (row & ((1 << at.x) - 1)).count_ones() as usize;
+        (row >> at.x & 1 == 1).then(|| (blocks, usize::from(blocks.before[at.y as usize]) + before))
+    }
+
+    /// The plane of a refined texel's sample; `None` where the texel is not refined.
+    #[inline(always)]
+    pub(super) fn sample(&self, origin: IVec2, at: UVec2, sample: usize, per_block: usize) -> Option<Affine> {
+        let (blocks, block) = self.block(at)?;
+        let Cells::Table { planes, .. } = &self.cells else { return None };
+        Some(planes.get(blocks.samples.get(block * per_block + sample), origin))
+    }
+
+    /// The slots of a link that see its sample's surface, where it is kept.
+    #[inline(always)]
+    pub(super) fn link(&self, at: UVec2, link: usize, per_block: usize) -> Option<u32> {
+        let (blocks, block) = self.block(at)?;
+        let words = (2 * per_block).div_ceil(32);
+        let kept = &blocks.kept[block * words..][..words];
+        let (word, bit) = (link / 32, link % 32);
+        if kept[word] >> bit & 1 == 0 {
+            return None;
+        }
+        let before: u32 = kept[..word].iter().map(|word| word.count_ones()).sum();
+        let before = before + (kept[word] & ((1 << bit) - 1)).count_ones();
+        Some(blocks.places.get((blocks.first[block] + before) as usize))
+    }
+
+    /// Number of refined texels.
+    pub(super) fn refined(&self) -> usize {
+        self.blocks.as_ref().map_or(0, |blocks| blocks.first.len())
+    }
+
+    /// Bytes of tables, indices, blocks and links.
+    pub(super) fn bytes(&self) -> usize {
+        let cells = match &self.cells {
+            Cells::Table { planes: Planes::Exact(planes), texels } => size_of_val(planes.as_ref()) + texels.bytes(),
+            Cells::Table { planes: Planes::Near { planes, .. }, texels } => {
+                size_of_val(planes.as_ref()) + texels.bytes()
+            }
+            Cells::Depths(depths) => size_of_val(depths.as_ref()),
+            Cells::Own { keys, slopes, .. } => size_of_val(keys.as_ref()) + size_of_val(slopes.as_ref()),
+        };
+        cells + self.blocks.as_ref().map_or(0, |blocks| blocks.bytes())
+    }
+}
+
+/// What a texel stores.
+pub(super) enum Stored {
+    Plane(Affine),
+    Depth(f32),
+}
+
+impl Planes {
+    #[inline(always)]
+    fn get(&self, index: u32, origin: IVec2) -> Affine {
+        match self {
+            Self::Exact(planes) => planes[index as usize],
+            Self::Near { base, planes } => {
+                let [key, dx, dy] = planes[index as usize].map(f64::from);
+                if key == f64::INFINITY {
+                    return NOTHING;
+                }
+                let middle = origin.as_dvec2() + 0.5 * f64::from(TILE);
+                Affine { c: base + key - dx * middle.x - dy * middle.y, dx, dy }
+            }
+        }
+    }
+}
+
+/// The planes that a tile refers to, each once.
+struct Table {
+    /// From the caller's index to the table's.
+    index: BTreeMap<u32, u32>,
+    /// The first of the caller's indices for each entry.
+    kept: Vec<u32>,
+    near: Vec<[f32; 3]>,
+}
+
+impl Table {
+    /// Planes that are the same three floats are one entry, unless all bits are to be kept.
+    fn new<'a>(
+        cells: &FacetCells<'_>,
+        all: impl Iterator<Item = &'a u32>,
+        near: impl Fn(u32) -> [f32; 3],
+        exact: bool,
+    ) -> Self {
+        let mut table = Self { index: BTreeMap::new(), kept: Vec::new(), near: Vec::new() };
+        let mut same: BTreeMap<[u64; 3], u32> = BTreeMap::new();
+        for &plane in all {
+            if table.index.contains_key(&plane) {
+                continue;
+            }
+            let rounded = near(plane);
+            let bits = match cells.planes.get(plane as usize) {
+                Some(Affine { c, dx, dy }) if exact => [c, dx, dy].map(|number| number.to_bits()),
+                _ => rounded.map(|number| u64::from(number.to_bits())),
+            };
+            let entry = *same.entry(bits).or_insert_with(|| {
+                table.kept.push(plane);
+                table.near.push(rounded);
+                table.kept.len() as u32 - 1
+            });
+            table.index.insert(plane, entry);
+        }
+        table
+    }
+
+    fn bytes(&self, exact: bool) -> usize {
+        self.kept.len() * if exact { size_of::<Affine>() } else { size_of::<[f32; 3]>() }
+    }
+
+    fn planes(self, cells: &FacetCells<'_>, exact: bool, base: f64) -> Planes {
+        if exact {
+            let plane = |plane: &u32| cells.planes.get(*plane as usize).copied().unwrap_or(NOTHING);
+            return Planes::Exact(self.kept.iter().map(plane).collect());
+        }
+        Planes::Near { base, planes: self.near.into() }
+    }
+}
+
+impl Blocks {
+    fn new(cells: &FacetCells<'_>, table: &Table, fine: u32) -> Self {
+        let words = (2 * fine * fine).div_ceil(32) as usize;
+        let mut blocks = Self {
+            refined: [0; TILE as usize],
+            before: [0; TILE as usize],
+            samples: Packed::new(&[]),
+            kept: vec![0; words * cells.blocks.len()].into(),
+            first: Box::default(),
+            places: Packed::new(&[]),
+        };
+        let (mut samples, mut first, mut places) = (Vec::new(), Vec::new(), Vec::new());
+        for (block, kept) in cells.blocks.iter().zip(blocks.kept.chunks_exact_mut(words)) {
+            blocks.refined[usize::from(block.texel) / TILE as usize] |= 1 << (u32::from(block.texel) % TILE);
+            samples.extend(block.samples.iter().map(|plane| table.index[plane]));
+            first.push(places.len() as u32);
+            for (link, place) in &block.links {
+                kept[usize::from(*link) / 32] |= 1 << (link % 32);
+                places.push(u32::from(*place));
+            }
+        }
+        let mut before = 0;
+        for (row, refined) in blocks.before.iter_mut().zip(blocks.refined) {
+            *row = before;
+            before += refined.count_ones() as u16;
+        }
+        (blocks.samples, blocks.first, blocks.places) = (Packed::new(&samples), first.into(), Packed::new(&places));
+        blocks
+    }
+
+    fn bytes(&self) -> usize {
+        let lists = size_of_val(self.kept.as_ref()) + size_of_val(self.first.as_ref());
+        size_of::<Self>() + lists + self.samples.bytes() + self.places.bytes()
+    }
+}

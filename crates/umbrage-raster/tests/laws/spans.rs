@@ -1,0 +1,98 @@
+//! Lines of finer grids: covered by whom a plain test of each point says, and as the texels' own samples are.
+
+use glam::{DVec3, IVec2, UVec2};
+use std::collections::BTreeMap;
+use umbrage_plane::{TexelRect, View};
+use umbrage_raster::{BIN, Bins, Cull, Lines, Triangle};
+
+/// Random triangles in front of a small perspective view: ordinary ones, slivers, and some that are cut by the near limit.
+fn soup(seed: u32) -> (View, Vec<Triangle>) {
+    let view = View::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.2, 1.0, 90.0, UVec2::new(70, 45)).unwrap();
+    let mut state = u64::from(seed) * 2 + 1;
+    let mut next = move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as f64 / f64::from(1_u32 << 31) - 0.5
+    };
+    let triangles = (0..40).map(|object| {
+        let mut corner =
+            || DVec3::new(next() * 20.0, next() * 14.0, -10.0 + next() * if object % 7 == 0 { 24.0 } else { 8.0 });
+        let (a, b) = (corner(), corner());
+        let c = if object % 3 == 0 { (a + b) * 0.5 + DVec3::new(0.0, 0.04, 0.0) } else { corner() };
+        Triangle { corners: [a, b, c], object, sheet: true }
+    });
+    (view, triangles.collect())
+}
+
+/// Facets over the points of a grid by their spans.
+fn covered(bins: &Bins, region: TexelRect, lines: Lines, step: i32) -> BTreeMap<(i32, i32), Vec<u32>> {
+    let mut found: BTreeMap<(i32, i32), Vec<u32>> = BTreeMap::new();
+    bins.spans(region, lines, step, |facet, line, along| {
+        for at in along.filter(|at| at.rem_euclid(step) == step / 2) {
+            let point = if lines == Lines::Rows { (at, line) } else { (line, at) };
+            found.entry(point).or_default().push(facet.triangle);
+        }
+    });
+    found
+}
+
+#[test]
+fn spans_cover_the_texels_that_tiles_say() {
+    for seed in 0..20 {
+        let (view, triangles) = soup(seed);
+        let bins = Bins::new(&view, TexelRect::of_size(view.size()), Cull::None, triangles);
+        let whole = TexelRect::new(IVec2::ZERO, view.size().as_ivec2() * 256);
+        let found = covered(&bins, whole, Lines::Rows, 256);
+        let mut wanted: BTreeMap<(i32, i32), Vec<u32>> = BTreeMap::new();
+        for index in 0..bins.tiles().element_product() {
+            let tile = UVec2::new(index % bins.tiles().x, index / bins.tiles().x);
+            bins.tile(tile, |facet, coverage| {
+                for (y, row) in coverage.rows.iter().enumerate() {
+                    for x in (0..BIN).filter(|x| row >> x & 1 == 1) {
+                        let texel = (tile * BIN + UVec2::new(x, y as u32)).as_ivec2() * 256 + 128;
+                        wanted.entry((texel.x, texel.y)).or_default().push(facet.triangle);
+                    }
+                }
+            });
+        }
+        assert!(!wanted.is_empty());
+        assert_eq!(found, wanted, "seed {seed}");
+    }
+}
+
+#[test]
+fn a_finer_grid_is_that_of_a_finer_map() {
+    // Corners snapped to 1/256 of a coarse texel are snapped alike in a map of half as many texels with half the step.
+    let (view, triangles) = soup(3);
+    let snapped = |view: &View| Bins::new(view, TexelRect::of_size(view.size()), Cull::None, triangles.clone());
+    let bins = snapped(&view);
+    let whole = TexelRect::new(IVec2::ZERO, view.size().as_ivec2() * 256);
+    for step in [2, 32, 64] {
+        // A point is covered in rows as it is in columns, unless it is on an edge.
+        if step == 2 {
+            continue;
+        }
+        let (rows, columns) = (covered(&bins, whole, Lines::Rows, step), covered(&bins, whole, Lines::Columns, step));
+        let apart = rows.iter().filter(|(at, facets)| columns.get(at) != Some(facets)).count();
+        assert!(rows.len() > 1000 && apart * 500 < rows.len(), "{apart} of {} points of step {step}", rows.len());
+    }
+}
+
+#[test]
+fn a_region_is_a_part_of_the_whole() {
+    let (view, triangles) = soup(5);
+    let bins = Bins::new(&view, TexelRect::of_size(view.size()), Cull::None, triangles);
+    let whole = TexelRect::new(IVec2::ZERO, view.size().as_ivec2() * 256);
+    for lines in [Lines::Rows, Lines::Columns] {
+        let all = covered(&bins, whole, lines, 64);
+        for corner in [(0, 0), (31 * 256, 5 * 256), (20 * 256 + 64, 30 * 256 + 128)] {
+            let region = TexelRect::new(corner.into(), IVec2::from(corner) + IVec2::new(33 * 256, 9 * 256));
+            let part = covered(&bins, region, lines, 64);
+            let inside: BTreeMap<_, _> = all
+                .iter()
+                .filter(|((x, y), _)| region.contains(IVec2::new(*x, *y)))
+                .map(|(at, f)| (*at, f.clone()))
+                .collect();
+            assert_eq!(part, inside);
+        }
+    }
+}
