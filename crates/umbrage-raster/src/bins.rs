@@ -1,7 +1,7 @@
 //! Triangles sorted into tiles.
 
 use crate::coverage::{Coverage, Samples};
-use crate::setup::{Piece, SUBTEXELS, Setup, sampled};
+use crate::setup::{Piece, Reach, SUBTEXELS, Setup};
 use crate::{BIN, Cull, Stats, Triangle};
 use glam::{IVec2, UVec2};
 use umbrage_plane::{Facet, Sampling, TexelRect, View};
@@ -14,6 +14,7 @@ const SIDE: i32 = BIN as i32;
 #[derive(Clone, Debug)]
 pub struct Bins {
     sampling: Sampling,
+    reach: Reach,
     window: TexelRect,
     tiles: UVec2,
     pieces: Vec<Piece>,
@@ -33,8 +34,28 @@ impl Bins {
     /// bins without a facet. Perspective triangles are cut at 1/1024 of the near distance, not at the near plane: what is between
     /// is kept with its true key, and counted in [`Stats::before_near`] (C-10). Orthographic ones are not cut in depth at all.
     pub fn new(view: &View, window: TexelRect, cull: Cull, triangles: impl IntoIterator<Item = Triangle>) -> Self {
+        Self::reaching(Reach::Samples(view.sampling()), view, window, cull, triangles)
+    }
+
+    /// [`Bins::new`] for finer grids too ([`Bins::spans`]): it keeps what lies between the texels' samples as well.
+    pub fn for_spans(
+        view: &View,
+        window: TexelRect,
+        cull: Cull,
+        triangles: impl IntoIterator<Item = Triangle>,
+    ) -> Self {
+        Self::reaching(Reach::Anywhere, view, window, cull, triangles)
+    }
+
+    fn reaching(
+        reach: Reach,
+        view: &View,
+        window: TexelRect,
+        cull: Cull,
+        triangles: impl IntoIterator<Item = Triangle>,
+    ) -> Self {
         let window = TexelRect::of_size(view.size()).intersect(window);
-        let mut setup = Setup::new(view, window, cull);
+        let mut setup = Setup::new(view, window, cull, reach);
         for triangle in triangles {
             setup.add(&triangle);
         }
@@ -42,6 +63,7 @@ impl Bins {
         let sampling = view.sampling();
         let mut bins = Self {
             sampling,
+            reach,
             window,
             tiles: view.size().map(|side| side.div_ceil(BIN)),
             pieces,
@@ -142,7 +164,7 @@ impl Bins {
     /// Calls `each` with the index of every tile that the piece may cover.
     fn each_tile(&self, piece: &Piece, mut each: impl FnMut(usize)) {
         let corners = piece.corners(&self.corners);
-        let texels = sampled(self.sampling, corners).intersect(self.window);
+        let texels = self.reach.texels(corners).intersect(self.window);
         let (first, last) = (texels.min.map(|v| v / SIDE), texels.max.map(|v| (v - 1) / SIDE));
         let narrow = last.x - first.x < 2 || last.y == first.y;
         for row in first.y..=last.y {

@@ -42,6 +42,25 @@ impl Piece {
     }
 }
 
+/// Which polygons are of use to a texel.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Reach {
+    /// Those that may cover its sample.
+    Samples(Sampling),
+    /// Those that may cover any place in it.
+    Anywhere,
+}
+
+impl Reach {
+    /// The texels that a polygon may be of use to, by its bounding box: inclusive at the low side, exclusive at the high.
+    pub fn texels(self, corners: &[IVec2]) -> TexelRect {
+        match self {
+            Self::Samples(sampling) => sampled(sampling, corners),
+            Self::Anywhere => anywhere(corners),
+        }
+    }
+}
+
 /// Why a triangle is not kept.
 enum Skip {
     NotFinite,
@@ -57,6 +76,7 @@ pub(crate) struct Setup<'a> {
     world_to_eye: DMat4,
     window: TexelRect,
     cull: Cull,
+    reach: Reach,
     clipper: Clipper,
     /// In the order of their triangles.
     pub pieces: Vec<Piece>,
@@ -66,12 +86,13 @@ pub(crate) struct Setup<'a> {
 }
 
 impl<'a> Setup<'a> {
-    pub fn new(view: &'a View, window: TexelRect, cull: Cull) -> Self {
+    pub fn new(view: &'a View, window: TexelRect, cull: Cull, reach: Reach) -> Self {
         Self {
             view,
             world_to_eye: view.world_to_eye(),
             window,
             cull,
+            reach,
             clipper: Clipper::default(),
             pieces: Vec::new(),
             corners: Vec::new(),
@@ -123,7 +144,7 @@ impl<'a> Setup<'a> {
         self.corners.extend(projected.corners.iter().map(|corner| snap(*corner)));
         let snapped = &self.corners[first..];
         let cull = if triangle.sheet { Cull::None } else { self.cull };
-        let front = side(snapped, self.view.sampling(), self.window, cull)?;
+        let front = side(snapped, self.reach, self.window, cull)?;
         let plane = plane(self.view, eye, edges[0].cross(edges[1]), projected.corners);
         self.stats.clipped += u64::from(projected.clipped);
         self.stats.before_near += u64::from(eye.iter().any(|corner| -corner.z < self.view.near()));
@@ -141,7 +162,7 @@ impl<'a> Setup<'a> {
 }
 
 /// True when the outside of a polygon is seen; or why it is not drawn.
-fn side(snapped: &[IVec2], sampling: Sampling, window: TexelRect, cull: Cull) -> Result<bool, Skip> {
+fn side(snapped: &[IVec2], reach: Reach, window: TexelRect, cull: Cull) -> Result<bool, Skip> {
     let (low, high) = bounds(snapped);
     let touched = TexelRect::new(low >> 8, (high >> 8) + 1);
     if window.intersect(touched).is_empty() {
@@ -157,7 +178,7 @@ fn side(snapped: &[IVec2], sampling: Sampling, window: TexelRect, cull: Cull) ->
     if (cull == Cull::Front && front) || (cull == Cull::Back && !front) {
         return Err(Skip::Culled);
     }
-    if window.intersect(sampled(sampling, snapped)).is_empty() {
+    if window.intersect(reach.texels(snapped)).is_empty() {
         return Err(Skip::Missed);
     }
     Ok(front)
@@ -191,8 +212,14 @@ pub(crate) fn sampled(sampling: Sampling, corners: &[IVec2]) -> TexelRect {
     match sampling {
         // The samples are at 256·i + 128; ⌈(v − 128) / 256⌉ is the first that is not before v.
         Sampling::Centre => TexelRect::new((low + 127) >> 8, (high + 127) >> 8),
-        Sampling::Jittered { .. } => TexelRect::new(low >> 8, (high + 255) >> 8),
+        Sampling::Jittered { .. } => anywhere(corners),
     }
+}
+
+/// The texels that the polygon's bounding box touches.
+fn anywhere(corners: &[IVec2]) -> TexelRect {
+    let (low, high) = bounds(corners);
+    TexelRect::new(low >> 8, (high + 255) >> 8)
 }
 
 /// The plane through a triangle, as a key over texels.

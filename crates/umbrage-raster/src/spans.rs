@@ -87,7 +87,8 @@ impl Bins {
     /// Lines are those in `region` (in 1/256 texel) whose coordinate is step/2 more than a multiple of `step`, which is a power of two
     /// from 2 to 256; intervals are cut to `region`. A point on the edge between two triangles belongs to exactly one of them; of
     /// [`Lines::Rows`] a texel's centre belongs to whom [`Bins::tile`] gives it. Nothing outside the bins' window is covered. The view's own
-    /// sampling is of no effect.
+    /// sampling is of no effect. The bins must be [for spans](Bins::for_spans), unless nothing but texels' centres is of interest: others leave
+    /// out what lies between those.
     ///
     /// ```
     /// # use glam::{DVec3, IVec2, UVec2};
@@ -96,7 +97,7 @@ impl Bins {
     /// let view = View::orthographic(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 16.0, 1.0, 9.0, UVec2::splat(32)).unwrap();
     /// let corners = [(0.0, 0.0), (3.0, 0.0), (0.0, 3.0)].map(|(x, y)| DVec3::new(x, y, -5.0));
     /// let triangle = Triangle { corners, object: 7, sheet: false };
-    /// let bins = Bins::new(&view, TexelRect::of_size(view.size()), Cull::None, [triangle]);
+    /// let bins = Bins::for_spans(&view, TexelRect::of_size(view.size()), Cull::None, [triangle]);
     /// // Half a texel below the upper corner at (16, 13), the triangle is half a texel wide.
     /// let region = TexelRect::new(IVec2::ZERO, IVec2::splat(32 * 256));
     /// let mut spans = Vec::new();

@@ -97,7 +97,7 @@ pub fn bake_refined(
     assert!(matches!(fine, 2 | 4 | 8), "{fine} samples along a texel's side");
     assert!(slots > 0 && slots.is_multiple_of(2) && slots * fine <= 64, "{slots} slots with {fine} samples");
     let view = &view.with_sampling(Sampling::Centre);
-    let bins = Bins::new(view, TexelRect::of_size(view.size()), Cull::None, triangles);
+    let bins = Bins::for_spans(view, TexelRect::of_size(view.size()), Cull::None, triangles);
     let depths = FacetDepths::of(view);
     let tiles = by_tile(view, |tile| {
         let found = refined::tile(view, &bins, tile, refinement)?;

@@ -59,22 +59,62 @@ fn spans_cover_the_texels_that_tiles_say() {
     }
 }
 
-#[test]
-fn a_finer_grid_is_that_of_a_finer_map() {
-    // Corners snapped to 1/256 of a coarse texel are snapped alike in a map of half as many texels with half the step.
-    let (view, triangles) = soup(3);
-    let snapped = |view: &View| Bins::new(view, TexelRect::of_size(view.size()), Cull::None, triangles.clone());
-    let bins = snapped(&view);
-    let whole = TexelRect::new(IVec2::ZERO, view.size().as_ivec2() * 256);
-    for step in [2, 32, 64] {
-        // A point is covered in rows as it is in columns, unless it is on an edge.
-        if step == 2 {
-            continue;
-        }
-        let (rows, columns) = (covered(&bins, whole, Lines::Rows, step), covered(&bins, whole, Lines::Columns, step));
-        let apart = rows.iter().filter(|(at, facets)| columns.get(at) != Some(facets)).count();
-        assert!(rows.len() > 1000 && apart * 500 < rows.len(), "{apart} of {} points of step {step}", rows.len());
+/// Whether a point is inside a triangle of integers by its edges; `None` on an edge.
+fn inside(corners: [IVec2; 3], at: IVec2) -> Option<bool> {
+    let side = |a: IVec2, b: IVec2| (b - a).as_i64vec2().perp_dot((at - a).as_i64vec2()).signum();
+    let [a, b, c] = corners;
+    let sides = [side(a, b), side(b, c), side(c, a)];
+    if sides.contains(&1) && sides.contains(&-1) {
+        return Some(false);
     }
+    if sides.contains(&0) { None } else { Some(true) }
+}
+
+/// Corners on the grid of 1/256 texel, narrow triangles between the texels' samples among them: every point of a finer grid is asked.
+#[test]
+fn a_finer_grid_is_covered_where_a_plain_test_says() {
+    let size = UVec2::new(40, 36);
+    let view = View::orthographic(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 18.0, 1.0, 9.0, size).unwrap();
+    let mut found_narrow = 0;
+    for seed in 0..30u32 {
+        let mut state = u64::from(seed) * 2 + 1;
+        let mut next = move |most: i32| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 33) as i64 * i64::from(most) >> 31) as i32
+        };
+        let snapped: Vec<[IVec2; 3]> = (0..30)
+            .map(|i| {
+                let corner = IVec2::new(next(40 * 256), next(36 * 256));
+                let most = if i % 2 == 0 { 200 } else { 4000 };
+                [corner, corner + IVec2::new(next(most), next(9000)), corner + IVec2::new(next(most), next(60) - 30)]
+            })
+            .collect();
+        // x = texel − 20, y = 18 − texel: exact.
+        let world = |at: IVec2| DVec3::new(f64::from(at.x) / 256.0 - 20.0, 18.0 - f64::from(at.y) / 256.0, -5.0);
+        let triangles = snapped.iter().zip(0..).map(|(corners, object)| Triangle {
+            corners: corners.map(world),
+            object,
+            sheet: true,
+        });
+        let bins = Bins::for_spans(&view, TexelRect::of_size(size), Cull::None, triangles);
+        let whole = TexelRect::new(IVec2::ZERO, size.as_ivec2() * 256);
+        for (lines, step) in [(Lines::Rows, 64), (Lines::Columns, 64), (Lines::Rows, 32)] {
+            let found = covered(&bins, whole, lines, step);
+            for y in (step / 2..36 * 256).step_by(step as usize) {
+                for x in (step / 2..40 * 256).step_by(step as usize) {
+                    let facets = found.get(&(x, y));
+                    for (corners, index) in snapped.iter().zip(0u32..) {
+                        let said = facets.is_some_and(|facets| facets.contains(&index));
+                        if let Some(right) = inside(*corners, IVec2::new(x, y)) {
+                            assert_eq!(said, right, "{lines:?} {corners:?} at {x}, {y}");
+                            found_narrow += u32::from(right && index % 2 == 0);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(found_narrow > 10_000, "{found_narrow}");
 }
 
 #[test]
