@@ -14,9 +14,6 @@ pub const NO_FACET: u32 = u32::MAX;
 /// The plane of nothing: infinitely far.
 pub(super) const NOTHING: Affine = Affine::constant(f64::INFINITY);
 
-/// Most bytes of a texel, on average over a tile, for which it keeps refined texels.
-const MOST_WITH_BLOCKS: usize = 10;
-
 /// A texel that is kept as several samples.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FacetBlock {
@@ -123,8 +120,7 @@ impl FacetTile {
         let texels = Packed::new(&cells.texels.iter().map(|plane| table.index[plane]).collect::<Vec<_>>());
         let (small, bytes) = (table.kept.len() <= 1 << 16, table.bytes(exact) + texels.bytes());
         let own = AREA * if exact { size_of::<f32>() } else { size_of::<f32>() + size_of::<[f16; 2]>() };
-        let with_blocks = blocks.as_ref().map_or(0, |blocks| blocks.bytes());
-        let blocks = blocks.filter(|_| small && bytes + with_blocks <= MOST_WITH_BLOCKS * AREA);
+        let blocks = blocks.filter(|_| small);
         if small && (blocks.is_some() || bytes < own) {
             let planes = table.planes(cells, exact, base);
             return Some(Self { cells: Cells::Table { planes, texels }, blocks, range });
@@ -198,12 +194,14 @@ impl FacetTile {
     }
 
     /// Number of refined texels.
-    pub(super) fn refined(&self) -> usize {
+    #[must_use]
+    pub fn refined(&self) -> usize {
         self.blocks.as_ref().map_or(0, |blocks| blocks.first.len())
     }
 
     /// Bytes of tables, indices, blocks and links.
-    pub(super) fn bytes(&self) -> usize {
+    #[must_use]
+    pub fn bytes(&self) -> usize {
         let cells = match &self.cells {
             Cells::Table { planes: Planes::Exact(planes), texels } => size_of_val(planes.as_ref()) + texels.bytes(),
             Cells::Table { planes: Planes::Near { planes, .. }, texels } => {

@@ -140,11 +140,13 @@ impl<'a> Asked<'a> {
         Cell { at, samples: [sample(0), sample(1), sample(2), sample(3)] }
     }
 
-    /// The centre of a cell's corner, texels.
+    /// Where a cell's corner was sampled, texels: a texel that is not refined at its own centre.
     #[inline(always)]
     fn centre(&self, cell: &Cell, corner: usize) -> DVec2 {
         let at = cell.at + IVec2::new(corner as i32 & 1, corner as i32 >> 1);
-        (at.as_dvec2() + 0.5) / f64::from(self.map.fine())
+        let fine = f64::from(self.map.fine());
+        let at = (at.as_dvec2() + 0.5) / fine;
+        if cell.samples[corner].side < 1.0 { at } else { at.floor() + 0.5 }
     }
 
     /// How far the receiver's plane lies behind a sample's, as a key.
