@@ -2,7 +2,9 @@
 
 use crate::values::{Rule, Values};
 use std::sync::Arc;
-use umbrage_bake::{Baked, Caster, bake, bake_by_normals, bake_deep, bake_multi, mix_moments};
+use umbrage_bake::{
+    Baked, Caster, bake, bake_by_normals, bake_deep, bake_facets, bake_multi, bake_refined, mix_moments,
+};
 use umbrage_depth::{BackFace, DepthRule, First, Map, Second, Tiled};
 use umbrage_plane::View;
 use umbrage_raster::{Cull, Stats, Triangle};
@@ -13,6 +15,15 @@ pub(crate) type Moment<'a> = Box<dyn Iterator<Item = Caster> + 'a>;
 impl Values {
     /// `moments` are at evenly spread times: deep maps hold their mean, and of rules that keep one surface each texel sees one of them.
     pub fn bake(&self, view: &View, moments: &mut dyn Iterator<Item = Moment<'_>>) -> (Map, Stats) {
+        if self.rule == Rule::Facets {
+            // Over an exposure, the first moment's: what moves is for a mean of maps.
+            let casters = moments.next().into_iter().flatten().map(|caster| caster.triangle);
+            let baked = match self.refinement.fine {
+                1 => bake_facets(view, casters, &First, Cull::None),
+                _ => bake_refined(view, casters, &self.refinement),
+            };
+            return (baked.map.into(), baked.stats);
+        }
         if self.rule == Rule::Deep {
             let deep = self.sub_samples.map_or(self.deep, |axis| self.deep.with_axis(axis));
             let baked = bake_deep(view, moments, &deep);
@@ -42,7 +53,9 @@ impl Values {
         }
         let triangles = casters.map(|caster| caster.triangle);
         match self.rule {
-            Rule::First | Rule::Deep | Rule::Normals => self.sampled(view, triangles, &First, Cull::None),
+            Rule::First | Rule::Deep | Rule::Normals | Rule::Facets => {
+                self.sampled(view, triangles, &First, Cull::None)
+            }
             Rule::Second => self.sampled(view, triangles, &Second, Cull::None),
             Rule::BackFace => self.sampled(view, triangles, &BackFace, Cull::Front),
             Rule::Midpoint => self.sampled(view, triangles, &self.midpoint, Cull::None),

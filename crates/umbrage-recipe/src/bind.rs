@@ -24,6 +24,7 @@ impl Values {
     /// The filter of a preset with these values.
     pub fn bind(&self, preset: PresetName, map: Map) -> Box<dyn Shadow> {
         match preset {
+            PresetName::Auto => over(self.dual, map),
             PresetName::Williams78 => {
                 let filter = Williams::default().with_bias(self.biased.low).with_lookup(self.lookup);
                 over(filter.with_dither(self.dither), map)

@@ -52,6 +52,10 @@ impl Field {
         if self.of.len() == PresetName::ALL.len() {
             return "all".into();
         }
+        let mut others = PresetName::ALL.into_iter().filter(|preset| !self.of.contains(preset));
+        if let (Some(but), None) = (others.next(), others.next()) {
+            return format!("all but {}", but.name());
+        }
         self.of.iter().map(|preset| preset.name()).collect::<Vec<_>>().join(", ")
     }
 }

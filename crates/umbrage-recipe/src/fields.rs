@@ -9,7 +9,18 @@ use umbrage_sample::Density;
 use umbrage_shadow::williams::{DitherLaw, Guard, Lookup};
 use umbrage_shadow::{OccluderFalloff, Radius, Spread, VirtualWhen};
 
-const ALL: &[PresetName] = &PresetName::ALL;
+const AUTO: &[PresetName] = &[PresetName::Auto];
+/// All presets whose map keeps depths: which of them is free.
+const STORING: &[PresetName] = &[
+    PresetName::Williams78,
+    PresetName::Reeves87,
+    PresetName::Reeves87Recommended,
+    PresetName::Woo92,
+    PresetName::WangMolnar94,
+    PresetName::Burley,
+    PresetName::Fernando,
+    PresetName::Ordinary,
+];
 const CLOSER: &[PresetName] = &[PresetName::Reeves87, PresetName::Reeves87Recommended, PresetName::Woo92];
 const SOFT: &[PresetName] = &[PresetName::Burley, PresetName::Fernando];
 const COMPARED: &[PresetName] = &[
@@ -108,8 +119,50 @@ const SHARE: Kind = Kind::UpTo(1.0);
 
 pub const FIELDS: &[Field] = &[
     words!(
+        "fine",
+        AUTO,
+        [("1", 1), ("2", 2), ("4", 4), ("8", 8)],
+        |values| values.refinement.fine,
+        "samples along the side of a texel that is refined; 1 refines none",
+        ""
+    ),
+    words!(
+        "across",
+        AUTO,
+        [("1", 1), ("2", 2), ("4", 4), ("8", 8), ("16", 16)],
+        |values| values.dual.across,
+        "places along each side of a region that are asked",
+        ""
+    ),
+    words!(
+        "slots",
+        AUTO,
+        [("2", 2), ("4", 4), ("8", 8), ("16", 16), ("32", 32)],
+        |values| values.refinement.slots,
+        "parts of a link between two samples, of which one is remembered as where the surface changes; at most 64/fine",
+        ""
+    ),
+    own!(
+        "width-term",
+        AUTO,
+        Kind::Number,
+        |values, text, kind| f32::read(text, kind).map(|term| values.dual.width_term = f64::from(term)).is_some(),
+        |values| Some((values.dual.width_term as f32).write()),
+        "what a sample must be passed by for its width, in widths of it",
+        ""
+    ),
+    own!(
+        "slope-term",
+        AUTO,
+        Kind::Number,
+        |values, text, kind| f32::read(text, kind).map(|term| values.dual.slope_term = f64::from(term)).is_some(),
+        |values| Some((values.dual.slope_term as f32).write()),
+        "the same for the gentler slope, in changes of depth over a sample",
+        ""
+    ),
+    words!(
         "stored",
-        ALL,
+        STORING,
         [
             ("first", Rule::First),
             ("second", Rule::Second),
@@ -124,7 +177,7 @@ pub const FIELDS: &[Field] = &[
     ),
     plain!(
         "ratio",
-        ALL,
+        STORING,
         Kind::Ratio,
         |values| values.midpoint.ratio,
         "midpoints: how far the depth is from the first surface to the second",
@@ -132,7 +185,7 @@ pub const FIELDS: &[Field] = &[
     ),
     plain!(
         "merge",
-        ALL,
+        STORING,
         Kind::Number,
         |values| values.midpoint.merge,
         "midpoints: fraction of the distance within which surfaces are one",
@@ -140,7 +193,7 @@ pub const FIELDS: &[Field] = &[
     ),
     words!(
         "same",
-        ALL,
+        STORING,
         [("depth", SameSurface::Depth), ("object", SameSurface::Object), ("surface", SameSurface::Surface)],
         |values| values.midpoint.same,
         "midpoints: which fragments are one surface; `surface` with several `sub-samples`",
@@ -148,7 +201,7 @@ pub const FIELDS: &[Field] = &[
     ),
     own!(
         "epsilon",
-        ALL,
+        STORING,
         Kind::BelowOne,
         |values, text, kind| {
             let deep = f32::read(text, kind).and_then(|epsilon| values.deep.with_epsilon(epsilon).ok());
@@ -160,7 +213,7 @@ pub const FIELDS: &[Field] = &[
     ),
     optional!(
         "sub-samples",
-        ALL,
+        STORING,
         Kind::Whole(8),
         |values| values.sub_samples,
         "samples along a texel's side: deep maps average them (4, rounded down to a power of 2), others keep the nearest surfaces over them (1; not `normals`)",

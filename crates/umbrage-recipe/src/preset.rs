@@ -6,6 +6,8 @@ use umbrage_shadow::presets;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PresetName {
+    /// Facets and two planes, without a bias: the default.
+    Auto,
     /// Point by point (Williams 1978).
     Williams78,
     /// Percentage closer, biases of a range (Reeves, Salesin & Cook 1987), as the listing sets its parameters.
@@ -26,7 +28,8 @@ pub enum PresetName {
 
 impl PresetName {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
+        Self::Auto,
         Self::Williams78,
         Self::Reeves87,
         Self::Reeves87Recommended,
@@ -41,6 +44,7 @@ impl PresetName {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
+            Self::Auto => "auto",
             Self::Williams78 => "williams78",
             Self::Reeves87 => "reeves87",
             Self::Reeves87Recommended => "reeves87-recommended",
@@ -62,6 +66,7 @@ impl PresetName {
     #[must_use]
     pub fn expects(self) -> &'static [Stored] {
         match self {
+            Self::Auto => presets::auto().expects,
             Self::Williams78 => presets::williams78().expects,
             // Reeves' control is over the maps of his own filter.
             Self::Reeves87 | Self::Ordinary => presets::reeves87().expects,

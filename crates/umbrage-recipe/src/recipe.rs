@@ -13,6 +13,7 @@ use umbrage_shadow::Shadow;
 ///
 /// | preset | stored | filter |
 /// |---|---|---|
+/// | `auto` | facets | two planes, no bias: the default |
 /// | `williams78` | first | point by point |
 /// | `reeves87`, `reeves87-recommended` | first | percentage closer, biases of a range |
 /// | `woo92` | midpoint | percentage closer, no bias |
@@ -41,6 +42,13 @@ pub struct Recipe {
     pub(crate) values: Values,
     /// Whether `stored` was written, even if it is the preset's own.
     pub(crate) names_stored: bool,
+}
+
+impl Default for Recipe {
+    /// `auto`.
+    fn default() -> Self {
+        PresetName::Auto.into()
+    }
 }
 
 impl From<PresetName> for Recipe {
@@ -84,7 +92,7 @@ impl Recipe {
     #[must_use]
     pub fn least_half(&self) -> f32 {
         match self.preset {
-            PresetName::Williams78 | PresetName::Ordinary => 0.0,
+            PresetName::Auto | PresetName::Williams78 | PresetName::Ordinary => 0.0,
             PresetName::Burley | PresetName::Fernando => 0.5,
             _ => self.values.min_size,
         }
@@ -138,6 +146,10 @@ impl Recipe {
     /// When the map records another surface than the recipe [expects](Self::expects): the comparison would be wrong all over, without a word.
     pub fn bind(&self, map: impl Into<Map>, storage: Storage) -> Result<Box<dyn Shadow>, RecipeError> {
         let map = map.into();
+        if self.preset == PresetName::Auto && map.facets().is_none() {
+            let expected = "a map of facets, as auto bakes it (bind_any takes any map)";
+            return Err(RecipeError::value("map", map.stored().name(), expected));
+        }
         let (expected, found) = (self.expects(), map.stored());
         if expected.contains(&found) {
             return Ok(self.bind_any(map, storage));

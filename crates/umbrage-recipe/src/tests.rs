@@ -58,7 +58,7 @@ fn what_cannot_be_meant_is_reported_by_field_and_value() {
     assert_eq!(refused("williams78,dither=2.5"), "dither = \"2.5\": expected a number from 0 to 2");
     assert_eq!(refused("reeves87,sub-samples=9"), "sub-samples = \"9\": expected a whole number from 1 to 8");
     assert_eq!(refused("woo92,same=thing"), "same = \"thing\": expected depth, object or surface");
-    assert!(refused("reeves86").contains("expected williams78, reeves87"));
+    assert!(refused("reeves86").contains("expected auto, williams78, reeves87"));
     for text in [
         "reeves87,samples=0",
         "reeves87,samples",
@@ -150,7 +150,7 @@ fn a_preset_is_written_as_its_name_and_knows_each_field_once() {
 #[test]
 fn toml_is_refused_by_field_and_value() {
     let refused = |text: &str| Recipe::from_toml(text).unwrap_err().to_string();
-    assert!(refused("samples = 3").starts_with("recipe = \"\": expected williams78"));
+    assert!(refused("samples = 3").starts_with("recipe = \"\": expected auto, williams78"));
     assert_eq!(refused("preset = 'woo92'\nsamples = 0"), "samples = \"0\": expected a whole number from 1 to 65536");
     assert_eq!(refused("preset = 'woo92'\nbias = [1, 2]"), "bias = \"[1, 2]\": expected a text, a number or a boolean");
     assert!(refused("preset = 'woo92'\nfade = 2").starts_with("field = \"fade\": expected stored, "));
@@ -213,7 +213,7 @@ proptest! {
         let recipe = match text.parse::<Recipe>() {
             Ok(recipe) => recipe,
             Err(error) => {
-                let contradicting = ["same", "min-samples", "compare", "bias", "spread", "min", "max", "nearest"];
+                let contradicting = ["same", "slots", "min-samples", "compare", "bias", "spread", "min", "max", "nearest"];
                 prop_assert!(contradicting.contains(&error.field.as_str()), "{}: {}", text, error);
                 return Ok(());
             }

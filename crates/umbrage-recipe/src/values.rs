@@ -1,12 +1,12 @@
 use crate::{PresetName, RecipeError};
-use umbrage_bake::Deep;
+use umbrage_bake::{Deep, Refinement};
 use umbrage_depth::{Midpoint, SameSurface, Stored};
 use umbrage_plane::Bias;
 use umbrage_sample::{Disc, Jittered};
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
 use umbrage_shadow::{
-    AnyDepth, BiasCone, Biased, Conditional, MapRadius, OccluderFalloff, OnPlane, Opacity, Pcf, Radius, Soft, Softness,
-    Spread, VirtualWhen, Williams, presets,
+    AnyDepth, BiasCone, Biased, Conditional, DualPlane, MapRadius, OccluderFalloff, OnPlane, Opacity, Pcf, Radius,
+    Soft, Softness, Spread, VirtualWhen, Williams, presets,
 };
 
 /// Which surface of a texel is stored, and how it is found.
@@ -18,13 +18,14 @@ pub enum Rule {
     Normals,
     Midpoint,
     Deep,
+    Facets,
 }
 
 impl Rule {
     /// What a map made by this rule records.
     pub fn stored(self) -> Stored {
         match self {
-            Self::First | Self::Deep => Stored::First,
+            Self::First | Self::Deep | Self::Facets => Stored::First,
             Self::Second => Stored::Second,
             Self::BackFace | Self::Normals => Stored::BackFace,
             Self::Midpoint => Stored::Midpoint,
@@ -90,6 +91,8 @@ pub struct Values {
     pub rescue: bool,
     pub lookup: Lookup,
     pub dither: Dither,
+    pub refinement: Refinement,
+    pub dual: DualPlane,
 }
 
 impl Values {
@@ -97,6 +100,9 @@ impl Values {
     pub fn of(preset: PresetName) -> Self {
         let parts = Self::common();
         match preset {
+            PresetName::Auto => {
+                Self { rule: Rule::Facets, biased: Biased::constant(Bias::ZERO), dual: presets::auto().filter, ..parts }
+            }
             PresetName::Williams78 => {
                 let Williams { bias, lookup, dither, .. } = presets::williams78().filter;
                 Self { biased: Biased::constant(bias), lookup, dither, ..parts }
@@ -165,6 +171,8 @@ impl Values {
             rescue: soft.rescue,
             lookup: williams.lookup,
             dither: williams.dither,
+            refinement: Refinement::default(),
+            dual: DualPlane::default(),
         }
     }
 
@@ -217,9 +225,19 @@ impl Values {
         match preset {
             PresetName::Reeves87 | PresetName::Reeves87Recommended | PresetName::Woo92 => self.check_closer()?,
             PresetName::Burley | PresetName::Fernando => self.check_soft(given)?,
+            PresetName::Auto => return self.check_auto(),
             PresetName::Williams78 | PresetName::WangMolnar94 | PresetName::Ordinary => return Ok(()),
         }
         self.check_depth()
+    }
+
+    fn check_auto(&self) -> Result<(), RecipeError> {
+        let Refinement { fine, slots, .. } = self.refinement;
+        if fine * slots > 64 {
+            let most = format!("at most {} with fine={fine}", 64 / fine);
+            return Err(RecipeError::value("slots", &slots.to_string(), most));
+        }
+        Ok(())
     }
 
     fn check_closer(&self) -> Result<(), RecipeError> {

@@ -69,6 +69,9 @@ fn a_preset_over_another_surface_is_refused_unless_it_is_meant() {
     assert!(error.starts_with("map = \"first\": expected midpoint, as woo92 wants it"), "{error}");
     assert!(refused("wang-molnar94", &first).unwrap().contains("expected back-face or second, as wang-molnar94"));
     assert_eq!(refused("woo92,stored=first", &first), None);
+    let error = refused("auto", &first).unwrap();
+    assert!(error.starts_with("map = \"first\": expected a map of facets, as auto bakes it"), "{error}");
+    assert_eq!(refused("reeves87", &recipe("auto").bake(&lamp(), boards())), None, "facets are nearest surfaces");
     let midpoints = recipe("woo92").bake(&lamp(), boards());
     assert!(refused("reeves87", &midpoints).unwrap().contains("\"midpoint\""));
     assert_eq!(refused("reeves87,stored=midpoint", &midpoints), None);

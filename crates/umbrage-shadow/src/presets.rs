@@ -18,7 +18,7 @@
 //! ```
 
 use crate::williams::Williams;
-use crate::{Biased, Conditional, Filter, OccluderFalloff, Pcf, ShadowMap, Soft};
+use crate::{Biased, Conditional, DualPlane, Filter, OccluderFalloff, Pcf, ShadowMap, Soft};
 use umbrage_depth::{DepthMap, Stored};
 use umbrage_plane::Bias;
 use umbrage_sample::{Centre, Density, Disc, Jittered};
@@ -73,6 +73,14 @@ impl<F: Filter> Preset<F> {
         }
         Err(StoredError { preset: self.name, expected: self.expects[0], found })
     }
+}
+
+/// Umbrage's own and the default: two planes instead of a bias, over a map of facets.
+///
+/// There is nothing to set for a scene. The map must know facets ([`FacetMap`](umbrage_depth::FacetMap)); over others the receiver's plane alone
+/// is compared.
+pub fn auto() -> Preset<DualPlane> {
+    Preset { name: "auto", filter: DualPlane::default(), expects: &[Stored::First] }
 }
 
 /// Williams 1978: nearest texel, no dither, two quanta of 16-bit depth (W78-2, W78-11, W78-12).
