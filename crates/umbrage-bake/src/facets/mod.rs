@@ -147,5 +147,5 @@ fn by_tile(view: &View, tile: impl Fn(UVec2) -> Option<FacetTile> + Sync) -> Vec
 fn pack(view: &View, depths: &FacetDepths, tile: UVec2, fine: u32, cells: &FacetCells<'_>) -> Option<FacetTile> {
     let origin = (tile * BIN).as_ivec2();
     let valid = (view.size() - tile * BIN).min(UVec2::splat(BIN));
-    FacetTile::new(cells, origin, valid, fine, |texel: IVec2, key| depths.depth(texel, key))
+    FacetTile::new(cells, origin, valid, fine, |texel: IVec2, plane| depths.depth(texel, plane))
 }

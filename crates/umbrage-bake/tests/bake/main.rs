@@ -1,6 +1,7 @@
 //! Triangles to maps: what each kind of map stores, for every rule, sampling, size and number of threads.
 
 mod deep;
+mod facets;
 mod hits;
 mod normals;
 mod pass1;

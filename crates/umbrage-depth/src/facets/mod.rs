@@ -22,11 +22,8 @@ const SHIFT: u32 = TILE.trailing_zeros();
 /// Umbrage's own; silhouettes in texels are after Sen, Cammarano & Hanrahan 2003, facets in texels after Lecocq et al. 2014.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FacetMap {
-    view: View,
+    depths: FacetDepths,
     stored: Stored,
-    decode: Decode,
-    /// The near plane's key, as it is stored.
-    nearest: f32,
     fine: u32,
     slots: u32,
     grid: UVec2,
@@ -43,11 +40,12 @@ pub struct FacetSample {
 }
 
 /// What a facet map makes of keys: apart from the map, so that tiles can be packed before it exists.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FacetDepths {
-    decode: Decode,
-    nearest: f32,
     view: View,
+    decode: Decode,
+    /// The near plane's key, as it is stored.
+    nearest: f32,
 }
 
 impl FacetDepths {
@@ -56,11 +54,11 @@ impl FacetDepths {
         Self { decode: view.decode(), nearest: view.key(view.near()) as f32, view: *view }
     }
 
-    /// The depth that a texel with a facet of this key stores; what is nearer than the near plane is at it (C-10).
+    /// The depth that a texel with a facet on this plane stores; what is nearer than the near plane is at it (C-10).
     #[inline(always)]
-    pub fn depth(&self, texel: IVec2, key: f64) -> f32 {
+    pub fn depth(&self, texel: IVec2, plane: &Affine) -> f32 {
         let at = self.view.sampling().position(texel);
-        rows::kept(self.decode.depth(key as f32, at).max(self.decode.depth(self.nearest, at)))
+        rows::kept(self.decode.depth(plane.at(at) as f32, at).max(self.decode.depth(self.nearest, at)))
     }
 }
 
@@ -74,13 +72,17 @@ impl FacetMap {
         let grid = view.size().map(|side| side.div_ceil(TILE));
         assert_eq!(tiles.len(), grid.element_product() as usize, "tiles of a map of {} texels", view.size());
         assert!(fine > 0 && slots > 0, "{fine} samples, {slots} slots");
-        let FacetDepths { decode, nearest, .. } = FacetDepths::of(&view);
-        Self { view, stored, decode, nearest, fine, slots, grid, tiles }
+        Self { depths: FacetDepths::of(&view), stored, fine, slots, grid, tiles }
     }
 
     /// Samples along a refined texel's side.
     pub fn fine(&self) -> u32 {
         self.fine
+    }
+
+    /// Parts of a link of which one is remembered as where the surface changes.
+    pub fn slots(&self) -> u32 {
+        self.slots
     }
 
     /// Refined texels.
@@ -91,7 +93,7 @@ impl FacetMap {
     /// The tile of a texel, with the tile's origin and the texel's place in it; `None` where no surface is kept and outside the map.
     #[inline(always)]
     fn tile(&self, texel: IVec2) -> Option<(&FacetTile, IVec2, UVec2)> {
-        if !TexelRect::of_size(self.view.size()).contains(texel) {
+        if !TexelRect::of_size(self.depths.view.size()).contains(texel) {
             return None;
         }
         let (tile, at) = (texel.as_uvec2() >> SHIFT, texel.as_uvec2() & (TILE - 1));
@@ -136,14 +138,14 @@ impl FacetMap {
         if depth == f32::INFINITY {
             return f64::INFINITY;
         }
-        let at: DVec2 = self.view.sampling().position(texel);
-        self.view.key(self.decode.zeta_of_depth(depth, at))
+        let at: DVec2 = self.depths.view.sampling().position(texel);
+        self.depths.view.key(self.depths.decode.zeta_of_depth(depth, at))
     }
 }
 
 impl DepthMap for FacetMap {
     fn view(&self) -> &View {
-        &self.view
+        &self.depths.view
     }
 
     #[inline(always)]
@@ -151,17 +153,13 @@ impl DepthMap for FacetMap {
         let Some((tile, origin, within)) = self.tile(texel) else { return f32::INFINITY };
         match tile.plane(origin, within) {
             tile::Stored::Depth(depth) => depth,
-            tile::Stored::Plane(plane) => {
-                let at = self.view.sampling().position(texel);
-                let depth = self.decode.depth(plane.at(at) as f32, at);
-                rows::kept(depth.max(self.decode.depth(self.nearest, at)))
-            }
+            tile::Stored::Plane(plane) => self.depths.depth(texel, &plane),
         }
     }
 
     #[inline(always)]
     fn range(&self, rect: TexelRect) -> DepthRange {
-        let whole = TexelRect::of_size(self.view.size());
+        let whole = TexelRect::of_size(self.depths.view.size());
         let touched = whole.intersect(rect);
         if touched.is_empty() {
             return DepthRange::NOTHING;

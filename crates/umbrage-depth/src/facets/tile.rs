@@ -81,7 +81,7 @@ pub struct FacetTile {
 }
 
 impl FacetTile {
-    /// Packs a tile whose upper left texel is `origin`. `depth` gives the depth of a key at a texel, as the map's look-up does; texels from
+    /// Packs a tile whose upper left texel is `origin`. `depth` gives the depth of a plane at a texel, as the map's look-up does; texels from
     /// `valid` on are beyond the map. `fine` is the number of samples along a refined texel's side; with 1, planes keep all their bits and
     /// the tile gives the same depths as the one it is made of, otherwise they are rounded to twelve bytes.
     ///
@@ -91,7 +91,7 @@ impl FacetTile {
         origin: IVec2,
         valid: UVec2,
         fine: u32,
-        depth: impl Fn(IVec2, f64) -> f32,
+        depth: impl Fn(IVec2, &Affine) -> f32,
     ) -> Option<Self> {
         let all = || cells.texels.iter().chain(cells.blocks.iter().flat_map(|block| &block.samples));
         if all().all(|plane| *plane == NO_FACET) {
@@ -106,9 +106,9 @@ impl FacetTile {
         let mut depths = vec![f32::INFINITY; AREA];
         for index in (0..AREA).filter(inside) {
             let texel = origin + texel_of(index);
-            let key = plane_of(cells.texels[index]).at(texel.as_dvec2() + 0.5);
-            base = base.min(key);
-            depths[index] = depth(texel, key);
+            let plane = plane_of(cells.texels[index]);
+            base = base.min(plane.at(texel.as_dvec2() + 0.5));
+            depths[index] = depth(texel, &plane);
             let one = DepthRange { min: depths[index], max: depths[index] };
             range = Some(range.map_or(one, |range| range.union(one)));
         }
