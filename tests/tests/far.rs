@@ -27,6 +27,7 @@ fn recipes(scene: &Scene, scale: f32) -> Vec<String> {
 
 fn presets(unit: f32, bias: &str) -> Vec<String> {
     vec![
+        "auto".into(),
         "williams78".into(),
         format!("reeves87,{bias}"),
         format!("reeves87-recommended,{bias}"),

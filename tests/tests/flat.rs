@@ -99,6 +99,8 @@ fn an_empty_plane_is_lit_by_every_preset_within_its_limits() {
     // No bias, and no limit but planes that are all but edge-on.
     assert_eq!(worst("wang-molnar94", &ALL, 10.0), 0.0);
     assert_eq!(worst("woo92", &ALL, 10.0), 0.0);
+    assert_eq!(worst("auto", &ALL, 10.0), 0.0);
+    assert_eq!(worst("auto,fine=1", &ALL, 10.0), 0.0);
     assert_eq!(worst("reeves87,depth=plane,bias=0.01", &[Kind::Axial, Kind::Radial], 10.0), 0.0);
     // Burley's cone is free of false shadow up to a slope of 2.
     assert_eq!(worst("burley", &ALL, 1.9), 0.0);
@@ -114,7 +116,7 @@ fn a_sheet_that_holds_the_light_leaves_maps_empty() {
     for (degrees, about) in [(0.0, 0.0), (90.0, 0.0)] {
         let sheet = Sheet::tilted(degrees, about);
         for view in cube_views(DVec3::ZERO, 0.1, 99.0, 64).unwrap() {
-            for text in ["reeves87", "wang-molnar94,stored=second", "woo92"] {
+            for text in ["reeves87", "wang-molnar94,stored=second", "woo92", "auto"] {
                 let recipe: Recipe = text.parse().unwrap();
                 let (map, stats) = recipe.bake_counted(&view, [sheet.triangles()]);
                 let shadow = recipe.bind(map, Storage::Tiled).unwrap();

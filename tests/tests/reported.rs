@@ -161,7 +161,7 @@ fn truth(table: &mut Table) {
     let ray = RayCast::everywhere(&geometry, DVec3::ZERO.extend(1.0));
     let dark = |fractions: Vec<f32>| fractions.iter().filter(|dark| **dark > 0.0).count();
     table.row("2 light in a surface", "truth on a wall of 24 points, dark", 0, dark(asked(&ray, &walls)));
-    for text in ["reeves87", "woo92", "wang-molnar94"] {
+    for text in ["auto", "reeves87", "woo92", "wang-molnar94"] {
         table.row(
             "2 light in a surface",
             format!("{text} on the same wall, dark"),
@@ -216,7 +216,8 @@ fn framing(table: &mut Table) {
 
 /// Suns that stand elsewhere along their axis.
 fn parallel(table: &mut Table) {
-    for text in ["reeves87", "woo92", "wang-molnar94", "burley", "burley,light=0.05", "fernando", "williams78"] {
+    for text in ["auto", "reeves87", "woo92", "wang-molnar94", "burley", "burley,light=0.05", "fernando", "williams78"]
+    {
         let answers = |back: f64| {
             let view = View::orthographic(
                 DVec3::new(1.0, 2.0, 0.5) * (10.0 + back),
@@ -256,7 +257,7 @@ fn resolution(table: &mut Table) {
         let view = view.expect("a spot");
         scene(objects(), &kind.map_or(view, |kind| view.with_kind(kind)))
     };
-    for text in ["reeves87,bias=0.1", "woo92", "wang-molnar94"] {
+    for text in ["auto", "reeves87,bias=0.1", "woo92", "wang-molnar94"] {
         let (scene, points) = (far(None), ground(4.0, 0.0));
         table.row(
             "6 resolution",
@@ -501,7 +502,7 @@ fn meshes(table: &mut Table) {
         ("light straight down", turned(DMat3::IDENTITY), DVec3::Y),
     ];
     for (what, mesh, toward) in ways {
-        for text in ["reeves87,bias=3t", "woo92", "wang-molnar94", "burley,bias=0.02,min=1t,max=1t"] {
+        for text in ["auto", "reeves87,bias=3t", "woo92", "wang-molnar94", "burley,bias=0.02,min=1t,max=1t"] {
             let scene = over(mesh.clone(), light(toward));
             table.row("others", format!("{what}, {text}"), NONE, percent(faults(&scene, text, &ground(4.5, 0.0), 0.2)));
         }
@@ -531,7 +532,7 @@ fn meshes(table: &mut Table) {
     let spot =
         View::perspective(DVec3::Y * 6.0, DVec3::ZERO, DVec3::X, 1.0, 0.5, 60.0, UVec2::new(320, 512)).expect("a spot");
     let behind = scene(vec![sheet("floor", 5.0, 0.0), cuboid("above", [-2.0, 7.0, -2.0], [2.0, 8.0, 2.0])], &spot);
-    for text in ["reeves87", "woo92", "burley"] {
+    for text in ["auto", "reeves87", "woo92", "burley"] {
         table.row(
             "others",
             format!("a box behind a spot, map of 320 × 512, {text}"),
@@ -550,7 +551,7 @@ fn meshes(table: &mut Table) {
     // The ground under the boxes is nothing that anybody sees.
     let mut seen = ground(4.5, 0.0);
     seen.retain(|point| point.position.x.abs() > 3.0 || point.position.z.abs() > 2.0);
-    for text in ["reeves87,bias=3t", "woo92"] {
+    for text in ["auto", "reeves87,bias=3t", "woo92"] {
         table.row(
             "others",
             format!("the seam between two boxes on a floor, {text}"),

@@ -8,8 +8,8 @@ use umbrage_sample::{
 };
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
 use umbrage_shadow::{
-    AnyDepth, BiasCone, Biased, Conditional, FilteredDepth, IntegerFirst, MapRadius, OnPlane, Opacity, Pcf, Radius,
-    Soft, Softness, VirtualWhen, Williams,
+    AnyDepth, BiasCone, Biased, Conditional, DualPlane, FilteredDepth, IntegerFirst, MapRadius, OnPlane, Opacity, Pcf,
+    Radius, Soft, Softness, VirtualWhen, Williams,
 };
 
 /// Each filter with the parameters that change what it does. Patterns and depths are chosen when the program runs, so that this costs
@@ -55,6 +55,7 @@ pub fn every_filter() -> Vec<Subject> {
             "wang and molnar, always",
             wang(EveryTexel.into()).with_when(VirtualWhen::Always).with_min_size(1.5),
         ),
+        Subject::new("two planes without facets", DualPlane::default()),
         Subject::new("burley", burley()),
         Subject::new("burley, rescued", burley().with_rescue(true)),
         Subject::new("burley, radii of several units", burley().with_softness(between).with_radius_gamma(0.5)),
