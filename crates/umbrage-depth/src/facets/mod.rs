@@ -120,6 +120,46 @@ impl FacetMap {
         FacetSample { plane, side: 1.0 }
     }
 
+    /// Calls `each` with all samples of a rectangle of the finer grid and where they were taken, texels: once for a texel that is not refined,
+    /// at its centre. Stops when it returns false.
+    #[inline(always)]
+    pub fn each_sample(&self, rect: TexelRect, mut each: impl FnMut(DVec2, &FacetSample) -> bool) {
+        let fine = self.fine as i32;
+        let texel_of = |at: IVec2| IVec2::new(at.x.div_euclid(fine), at.y.div_euclid(fine));
+        let (from, to) = (texel_of(rect.min), texel_of(rect.max - 1));
+        let nothing = FacetSample { plane: tile::NOTHING, side: 1.0 };
+        for y in from.y..=to.y {
+            for x in from.x..=to.x {
+                let texel = IVec2::new(x, y);
+                let centre = texel.as_dvec2() + 0.5;
+                let Some((tile, origin, within)) = self.tile(texel) else {
+                    if !each(centre, &nothing) {
+                        return;
+                    }
+                    continue;
+                };
+                if tile.is_refined(within) {
+                    let first = texel * fine;
+                    let part = TexelRect::new(first, first + fine).intersect(rect);
+                    for at in part.texels() {
+                        let sample = self.sample(at);
+                        if !each((at.as_dvec2() + 0.5) / f64::from(fine), &sample) {
+                            return;
+                        }
+                    }
+                    continue;
+                }
+                let plane = match tile.plane(origin, within) {
+                    tile::Stored::Plane(plane) => plane,
+                    tile::Stored::Depth(depth) => Affine::constant(self.key(texel, depth)),
+                };
+                if !each(centre, &FacetSample { plane, side: 1.0 }) {
+                    return;
+                }
+            }
+        }
+    }
+
     /// Where the first surface changes on the way from a sample of the finer grid to its neighbour to the right, or downward: 0 at the
     /// sample, 1 at the neighbour. `None` where no link is kept: their planes meet, or neither is in a refined texel.
     #[inline(always)]

@@ -170,6 +170,12 @@ impl FacetTile {
         (row >> at.x & 1 == 1).then(|| (blocks, usize::from(blocks.before[at.y as usize]) + before))
     }
 
+    /// Whether a texel is kept as several samples.
+    #[inline(always)]
+    pub(super) fn is_refined(&self, at: UVec2) -> bool {
+        self.blocks.as_ref().is_some_and(|blocks| blocks.refined[at.y as usize] >> at.x & 1 == 1)
+    }
+
     /// The plane of a refined texel's sample; `None` where the texel is not refined.
     #[inline(always)]
     pub(super) fn sample(&self, origin: IVec2, at: UVec2, sample: usize, per_block: usize) -> Option<Affine> {

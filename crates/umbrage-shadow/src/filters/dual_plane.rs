@@ -5,7 +5,7 @@ use crate::{Filter, OnPlane, Probe, Query};
 use fearless_simd::Simd;
 use glam::{DVec2, IVec2};
 use umbrage_depth::{DepthMap, FacetMap, FacetSample};
-use umbrage_plane::{Affine, View};
+use umbrage_plane::{Affine, TexelRect, View};
 use umbrage_sample::EveryTexel;
 
 /// Shadow without a bias over a map of facets ([`FacetMap`]): the receiver's tangent plane is compared with the caster's own plane, and edges run
@@ -63,13 +63,14 @@ impl Filter for DualPlane {
 struct Asked<'a> {
     map: &'a FacetMap,
     view: &'a View,
-    /// The receiver's tangent plane.
+    /// The receiver's tangent plane, and how fast its key changes, over both axes together.
     plane: Affine,
+    steep: f64,
     texel: DVec2,
     /// Half-axes of the region, texels.
     axes: [DVec2; 2],
     across: u32,
-    /// What a sample of one texel's width must pass by for its width, and for each unit of slope, as keys.
+    /// What a sample of one texel's width must be passed by for its width, as a key, and for each unit of slope.
     width: f64,
     slope: f64,
     /// The least width of a sample, texels.
@@ -78,160 +79,239 @@ struct Asked<'a> {
     rounding: f64,
 }
 
-/// The four samples around a place, and the finer grid's column and row of the upper left one.
+/// What a sample says before a place is named.
 #[derive(Clone, Copy)]
-struct Cell {
-    at: IVec2,
-    samples: [FacetSample; 4],
+struct Voter {
+    /// How far the receiver's plane lies behind the sample's, as a key over texels, less what it must pass by.
+    behind: Affine,
+    /// The same where the sample was taken.
+    there: f64,
+    /// What it must pass by.
+    passed: f64,
+}
+
+impl Voter {
+    /// Calls everything lit.
+    const NOTHING: Self = Self { behind: Affine::constant(-1.0), there: f64::NEG_INFINITY, passed: 0.0 };
+
+    /// Whether the sample calls a place dark.
+    #[inline(always)]
+    fn dark(&self, at: DVec2) -> bool {
+        self.there > 0.0 && self.behind.at(at) > 0.0
+    }
+}
+
+/// Samples along each side of the region that are kept at hand; larger regions ask the map for each place.
+const AT_HAND: i32 = 9;
+
+/// The samples under a region.
+struct Grid<'a, 'b> {
+    asked: &'b Asked<'a>,
+    /// The finer grid's column and row of the first, and columns.
+    rect: TexelRect,
+    voters: [Voter; (AT_HAND * AT_HAND) as usize],
 }
 
 impl<'a> Asked<'a> {
     #[inline(always)]
     fn new<S: Simd, M: DepthMap, P: Probe>(filter: &DualPlane, map: &'a FacetMap, query: &Query<'a, S, M, P>) -> Self {
         let (view, receiver) = (query.view(), query.receiver());
-        let plane = receiver.plane(view).key;
+        let zeta = -receiver.eye.z;
+        let plane = view.affine(receiver.eye, receiver.normal).unwrap_or_else(|| Affine::constant(view.key(zeta)));
         let most = view.size().as_dvec2() * 0.125;
         let axes = receiver.axes.map(|axis| axis.as_dvec2().clamp(-most, most));
-        let wide = 2.0 * axes[0].length().max(axes[1].length());
-        let key = plane.at(receiver.texel);
+        let wide = 2.0 * axes[0].length_squared().max(axes[1].length_squared()).sqrt();
+        let texel = receiver.texel_world.as_dvec2();
         Self {
             map,
             view,
             plane,
+            steep: plane.dx.abs() + plane.dy.abs(),
             texel: receiver.texel,
             axes,
-            across: if axes == [DVec2::ZERO; 2] { 1 } else { filter.across.max(1) },
-            width: filter.width_term * view.key_width(key),
+            across: if wide == 0.0 { 1 } else { filter.across.max(1) },
+            width: filter.width_term * (texel.x * texel.y).sqrt() * view.key_per_world(zeta),
             slope: filter.slope_term,
             least: filter.footprint_term * wide,
-            rounding: key.abs() * 1e-14,
+            rounding: plane.at(receiver.texel).abs() * 1e-14,
         }
     }
 
     /// The fraction in shadow, and how many samples were looked at.
     #[inline(always)]
     fn fraction(&self) -> (f32, u32) {
-        let across = self.across;
-        let offset = |i: u32| f64::from(2 * i + 1) / f64::from(across) - 1.0;
-        let (mut dark, mut looked) = (0.0, 0);
-        let mut cell: Option<Cell> = None;
-        for j in 0..across {
-            for i in 0..across {
-                let at = self.texel + self.axes[0] * offset(i) + self.axes[1] * offset(j);
-                if let Some(ruled) = answer(self.view.rules().verdict(self.view.locate(at.as_vec2()))) {
-                    dark += ruled;
-                    continue;
-                }
-                let fine = at * f64::from(self.map.fine()) - 0.5;
-                let corner = fine.floor().as_ivec2();
-                if cell.is_none_or(|cell| cell.at != corner) {
-                    cell = Some(self.cell(corner));
-                    looked += 4;
-                }
-                let Some(cell) = &cell else { continue };
-                dark += f32::from(u8::from(self.dark(cell, at, fine - corner.as_dvec2())));
+        let reach = self.axes[0].abs() + self.axes[1].abs();
+        let fine = f64::from(self.map.fine());
+        let corner = |at: DVec2| (at * fine - 0.5).floor();
+        let (low, high) = (corner(self.texel - reach), corner(self.texel + reach) + 2.0);
+        // NaN is in no rectangle.
+        let rect = TexelRect::new(low.as_ivec2(), high.as_ivec2());
+        let inside = self.view.holds(self.texel.as_vec2(), reach.as_vec2());
+        let small = (high - low).max_element() <= f64::from(AT_HAND);
+        if inside && small {
+            let (agreed, looked) = self.agreed(rect);
+            if let Some(dark) = agreed {
+                return (f32::from(u8::from(dark)), looked);
             }
         }
-        (dark / (across * across) as f32, looked)
+        let looked = rect.area().min(4 * (self.across * self.across) as usize) as u32;
+        (if small { Grid::new(self, rect).fraction(inside) } else { self.one_by_one() }, looked)
     }
 
-    fn cell(&self, at: IVec2) -> Cell {
-        let sample = |k: i32| self.map.sample(at + IVec2::new(k & 1, k >> 1));
-        Cell { at, samples: [sample(0), sample(1), sample(2), sample(3)] }
-    }
-
-    /// Where a cell's corner was sampled, texels: a texel that is not refined at its own centre.
+    /// The answer of all samples of a rectangle for all places of the region, where it is one; and how many were looked at.
     #[inline(always)]
-    fn centre(&self, cell: &Cell, corner: usize) -> DVec2 {
-        let at = cell.at + IVec2::new(corner as i32 & 1, corner as i32 >> 1);
-        let fine = f64::from(self.map.fine());
-        let at = (at.as_dvec2() + 0.5) / fine;
-        if cell.samples[corner].side < 1.0 { at } else { at.floor() + 0.5 }
+    fn agreed(&self, rect: TexelRect) -> (Option<bool>, u32) {
+        let (mut lit, mut dark, mut looked) = (true, true, 0);
+        self.map.each_sample(rect, |at, sample| {
+            looked += 1;
+            let voter = self.voter(at, sample);
+            let middle = voter.behind.at(self.texel);
+            let along = |axis: DVec2| (voter.behind.dx * axis.x + voter.behind.dy * axis.y).abs();
+            // A little more than the region, so that no rounding decides.
+            let spread = (along(self.axes[0]) + along(self.axes[1])) * (1.0 + 1e-9);
+            dark &= voter.there > 0.0 && middle - spread > 0.0;
+            lit &= voter.there <= 0.0 || middle + spread <= 0.0;
+            dark || lit
+        });
+        (if dark == lit { None } else { Some(dark) }, looked)
     }
 
-    /// How far the receiver's plane lies behind a sample's, as a key.
     #[inline(always)]
-    fn behind(&self, sample: &FacetSample, at: DVec2) -> f64 {
-        self.plane.at(at) - sample.plane.at(at)
-    }
-
-    /// Whether a sample calls a place dark.
-    #[inline(always)]
-    fn votes(&self, cell: &Cell, corner: usize, at: DVec2) -> bool {
-        let sample = &cell.samples[corner];
-        if sample.plane.c == f64::INFINITY {
-            return false;
+    fn voter(&self, at: DVec2, sample: &FacetSample) -> Voter {
+        let plane = &sample.plane;
+        if plane.c == f64::INFINITY {
+            return Voter::NOTHING;
         }
-        let steep = |plane: &Affine| plane.dx.abs() + plane.dy.abs();
-        let (own, other) = (steep(&self.plane), steep(&sample.plane));
+        let gentle = self.steep.min(plane.dx.abs() + plane.dy.abs());
         // Planes of refined maps are three floats about the middle of a tile.
-        let rounding = self.rounding + 1e-6 * own.min(other).min(self.width);
-        let passed = rounding + (self.width + self.slope * own.min(other)) * sample.side.max(self.least);
-        self.behind(sample, at) > passed && self.behind(sample, self.centre(cell, corner)) > passed
+        let rounding = self.rounding + 1e-6 * gentle.min(self.width);
+        let passed = rounding + (self.width + self.slope * gentle) * sample.side.max(self.least);
+        let behind =
+            Affine { c: self.plane.c - plane.c - passed, dx: self.plane.dx - plane.dx, dy: self.plane.dy - plane.dy };
+        Voter { behind, there: behind.at(at), passed }
     }
 
-    /// Whether a place is dark: `within` the cell, 0 to 1 from its upper left corner.
+    /// Where a sample of the finer grid was taken, texels: a texel that is not refined at its own centre.
     #[inline(always)]
-    fn dark(&self, cell: &Cell, at: DVec2, within: DVec2) -> bool {
-        let votes: [bool; 4] = std::array::from_fn(|corner| self.votes(cell, corner, at));
+    fn taken(&self, at: IVec2, sample: &FacetSample) -> DVec2 {
+        let place = (at.as_dvec2() + 0.5) / f64::from(self.map.fine());
+        if sample.side < 1.0 { place } else { place.floor() + 0.5 }
+    }
+
+    /// The places of the region, and the answer of each that the view's rules settle.
+    #[inline(always)]
+    fn places(&self, inside: bool, mut dark: impl FnMut(DVec2) -> bool) -> f32 {
+        let across = self.across;
+        let offset = |i: u32| f64::from(2 * i + 1) / f64::from(across) - 1.0;
+        let mut sum = 0.0;
+        for j in 0..across {
+            let row = self.texel + self.axes[1] * offset(j);
+            for i in 0..across {
+                let at = row + self.axes[0] * offset(i);
+                let ruled =
+                    if inside { None } else { answer(self.view.rules().verdict(self.view.locate(at.as_vec2()))) };
+                sum += ruled.unwrap_or_else(|| f32::from(u8::from(dark(at))));
+            }
+        }
+        sum / (across * across) as f32
+    }
+
+    /// A large region: the map is asked anew for each place.
+    #[inline(never)]
+    fn one_by_one(&self) -> f32 {
+        self.places(false, |at| {
+            let corner = (at * f64::from(self.map.fine()) - 0.5).floor().as_ivec2();
+            Grid::new(self, TexelRect::new(corner, corner + 2)).dark(at)
+        })
+    }
+}
+
+impl<'a, 'b> Grid<'a, 'b> {
+    fn new(asked: &'b Asked<'a>, rect: TexelRect) -> Self {
+        let mut voters = [Voter::NOTHING; (AT_HAND * AT_HAND) as usize];
+        for (at, voter) in rect.texels().zip(&mut voters) {
+            let sample = asked.map.sample(at);
+            *voter = asked.voter(asked.taken(at, &sample), &sample);
+        }
+        Self { asked, rect, voters }
+    }
+
+    #[inline(never)]
+    fn fraction(&self, inside: bool) -> f32 {
+        self.asked.places(inside, |at| self.dark(at))
+    }
+
+    #[inline(always)]
+    fn voter(&self, at: IVec2) -> &Voter {
+        let (from, columns) = (at - self.rect.min, self.rect.max.x - self.rect.min.x);
+        &self.voters[(from.y * columns + from.x) as usize]
+    }
+
+    /// Whether a place is dark.
+    #[inline(always)]
+    fn dark(&self, at: DVec2) -> bool {
+        let place = at * f64::from(self.asked.map.fine()) - 0.5;
+        // Roundings of a place at the region's rim.
+        let corner = place.floor().as_ivec2().clamp(self.rect.min, self.rect.max - 2);
+        let vote = |k: i32| self.voter(corner + IVec2::new(k & 1, k >> 1)).dark(at);
+        let votes = [vote(0), vote(1), vote(2), vote(3)];
         if votes == [votes[0]; 4] {
             return votes[0];
         }
-        self.shape(cell, votes, within)
+        self.shape(corner, votes, place - corner.as_dvec2())
     }
 
-    /// Marching squares: which side of the edge a place is on, where the corners disagree.
-    #[inline(never)]
-    fn shape(&self, cell: &Cell, votes: [bool; 4], within: DVec2) -> bool {
+    /// Marching squares: on which side of the edge a place is, where the corners disagree. `within` the cell, 0 to 1 from its upper left
+    /// corner.
+    fn shape(&self, corner: IVec2, votes: [bool; 4], within: DVec2) -> bool {
         let [a, b, c, d] = votes;
         let dark = votes.iter().filter(|vote| **vote).count();
-        // Where the upper, lower, left and right sides are crossed, from their upper or left end.
-        let crossed = |from: usize, to: usize| self.crossing(cell, from, to);
+        let crossed = |from: usize, to: usize| self.crossing(corner, from, to);
         match dark {
             // One corner stands alone.
             1 | 3 => {
                 let alone = votes.iter().position(|vote| *vote == (dark == 1)).unwrap_or(0);
-                self.beyond_corner(cell, alone, within) != (dark == 1)
+                self.beyond(corner, alone, within) != (dark == 1)
             }
-            // Two opposite sides are crossed: upper and lower, or left and right.
+            // The upper and lower sides are crossed.
             _ if a == c && b == d => {
                 let (upper, lower) = (crossed(0, 1), crossed(2, 3));
-                let left = within.x < upper + (lower - upper) * within.y;
-                if left { a } else { b }
+                if within.x < upper + (lower - upper) * within.y { a } else { b }
             }
+            // The left and right sides are.
             _ if a == b && c == d => {
                 let (left, right) = (crossed(0, 2), crossed(1, 3));
-                let above = within.y < left + (right - left) * within.x;
-                if above { a } else { c }
+                if within.y < left + (right - left) * within.x { a } else { c }
             }
             // Opposite corners agree: the middle is in shadow.
-            _ => (0..4).filter(|corner| !votes[*corner]).all(|corner| self.beyond_corner(cell, corner, within)),
+            _ => (0..4).filter(|corner| !votes[*corner]).all(|lit| self.beyond(corner, lit, within)),
         }
     }
 
-    /// Whether a place lies beyond the line that cuts a corner off.
-    fn beyond_corner(&self, cell: &Cell, corner: usize, within: DVec2) -> bool {
-        let (beside, below) = (corner ^ 1, corner ^ 2);
-        let from_corner = |from: usize, to: usize| {
-            let place = self.crossing(cell, from.min(to), from.max(to));
-            if from < to { place } else { 1.0 - place }
+    /// Whether a place lies beyond the line that cuts a corner of a cell off.
+    fn beyond(&self, cell: IVec2, corner: usize, within: DVec2) -> bool {
+        let from_corner = |to: usize| {
+            let place = self.crossing(cell, corner.min(to), corner.max(to));
+            if corner < to { place } else { 1.0 - place }
         };
-        let (p, q) = (from_corner(corner, beside), from_corner(corner, below));
+        let (p, q) = (from_corner(corner ^ 1), from_corner(corner ^ 2));
         let x = if corner & 1 == 0 { within.x } else { 1.0 - within.x };
         let y = if corner & 2 == 0 { within.y } else { 1.0 - within.y };
         // x/p + y/q < 1 is this side; a crossing at the corner itself leaves nothing of it.
         x * q + y * p >= p * q
     }
 
-    /// Where a side of a cell is crossed, 0 at `from` (its upper or left end) to 1: where the map saw the surface change, or where the two planes
-    /// meet the receiver's, or in the middle.
-    fn crossing(&self, cell: &Cell, from: usize, to: usize) -> f64 {
-        let down = to - from == 2;
-        let at = cell.at + IVec2::new(from as i32 & 1, from as i32 >> 1);
-        if let Some(place) = self.map.link(at, down) {
+    /// Where a side of a cell is crossed, from 0 at `from`, its upper or left end, to 1: where the map saw the surface change, or where the
+    /// receiver's plane passes from behind one to before the other, or in the middle.
+    fn crossing(&self, cell: IVec2, from: usize, to: usize) -> f64 {
+        let at = |corner: usize| cell + IVec2::new(corner as i32 & 1, corner as i32 >> 1);
+        if let Some(place) = self.asked.map.link(at(from), to - from == 2) {
             return place;
         }
-        let behind = |corner: usize| self.behind(&cell.samples[corner], self.centre(cell, corner));
+        let behind = |corner: usize| {
+            let voter = self.voter(at(corner));
+            voter.there + voter.passed
+        };
         let (a, b) = (behind(from), behind(to));
         if (a > 0.0) != (b > 0.0) && a.is_finite() && b.is_finite() { a / (a - b) } else { 0.5 }
     }
