@@ -34,7 +34,7 @@ impl Bins {
     /// bins without a facet. Perspective triangles are cut at 1/1024 of the near distance, not at the near plane: what is between
     /// is kept with its true key, and counted in [`Stats::before_near`] (C-10). Orthographic ones are not cut in depth at all.
     pub fn new(view: &View, window: TexelRect, cull: Cull, triangles: impl IntoIterator<Item = Triangle>) -> Self {
-        Self::reaching(Reach::Samples(view.sampling()), view, window, cull, triangles)
+        Self::within_reach(Reach::Samples(view.sampling()), view, window, cull, triangles)
     }
 
     /// [`Bins::new`] for finer grids too ([`Bins::spans`]): it keeps what lies between the texels' samples as well.
@@ -44,10 +44,10 @@ impl Bins {
         cull: Cull,
         triangles: impl IntoIterator<Item = Triangle>,
     ) -> Self {
-        Self::reaching(Reach::Anywhere, view, window, cull, triangles)
+        Self::within_reach(Reach::Anywhere, view, window, cull, triangles)
     }
 
-    fn reaching(
+    fn within_reach(
         reach: Reach,
         view: &View,
         window: TexelRect,
@@ -102,6 +102,11 @@ impl Bins {
     /// True when surely no facet covers a texel of the tile. Tiles of which it is false may still turn out to be bare.
     pub fn is_empty_tile(&self, tile: UVec2) -> bool {
         self.list(tile).is_empty()
+    }
+
+    /// How many facets may reach a tile; each is given to [`Bins::tile`]'s `sink` if it covers a sample.
+    pub fn reaching(&self, tile: UVec2) -> usize {
+        self.list(tile).len()
     }
 
     /// All facets that were kept, in the order of their triangles; some may cover no texel.

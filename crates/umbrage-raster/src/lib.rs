@@ -48,7 +48,7 @@ mod spans;
 pub use bins::Bins;
 pub use coverage::Coverage;
 pub use fragments::each_fragment;
-pub use spans::Lines;
+pub use spans::{Lines, Seen};
 
 use glam::DVec3;
 

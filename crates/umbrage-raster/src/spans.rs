@@ -26,6 +26,20 @@ impl Lines {
     }
 }
 
+/// What is nearest all over a region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Seen {
+    /// Nothing reaches it.
+    Nothing,
+    /// One facet covers it, and lies before whatever else reaches it.
+    One(Facet),
+    /// It may be several, or one with gaps.
+    Several,
+}
+
+/// Regions that more pieces may reach are not asked what is nearest.
+const MOST_ASKED: usize = 32;
+
 /// Three sides, as nearly every piece has, are crossed by a line twice or not at all.
 const TRIANGLE: usize = 3;
 
@@ -160,6 +174,32 @@ impl Bins {
         });
     }
 
+    /// What is nearest all over a region (in 1/256 texel), where that can be told from its corners: then no sample in it needs to be asked.
+    pub fn seen(&self, region: TexelRect) -> Seen {
+        let mut pieces: Vec<(Facet, bool)> = Vec::new();
+        let corners =
+            [region.min, IVec2::new(region.max.x, region.min.y), region.max, IVec2::new(region.min.x, region.max.y)];
+        self.each_piece(region, |piece, outline| {
+            if pieces.len() <= MOST_ASKED {
+                pieces.push((piece.facet(), corners.iter().all(|corner| holds(outline, *corner))));
+            }
+        });
+        if pieces.is_empty() {
+            return Seen::Nothing;
+        }
+        let keys = |facet: &Facet| corners.map(|corner| facet.plane.at(corner.as_dvec2() / f64::from(SUBTEXELS)));
+        let before = |nearer: &Facet, other: &Facet| keys(nearer).iter().zip(keys(other)).all(|(a, b)| *a < b);
+        let covering = pieces.iter().filter(|(_, covers)| *covers).map(|(facet, _)| facet);
+        let nearest = covering.min_by(|a, b| keys(a)[0].total_cmp(&keys(b)[0]));
+        match nearest {
+            Some(one) if pieces.len() <= MOST_ASKED => {
+                let first = pieces.iter().all(|(other, _)| other.triangle == one.triangle || before(one, other));
+                if first { Seen::One(*one) } else { Seen::Several }
+            }
+            _ => Seen::Several,
+        }
+    }
+
     /// Calls `each` with every piece that may reach a region of 1/256 texels, once, in order, with its corners.
     fn each_piece(&self, region: TexelRect, mut each: impl FnMut(&Piece, &[IVec2])) {
         let side = BIN as i32 * SUBTEXELS;
@@ -185,4 +225,12 @@ impl Bins {
             }
         }
     }
+}
+
+/// Whether a triangle surely has a point strictly inside; never for an outline of more corners.
+fn holds(outline: &[IVec2], at: IVec2) -> bool {
+    let side = |a: IVec2, b: IVec2| (b - a).as_i64vec2().perp_dot((at - a).as_i64vec2()).signum();
+    let [a, b, c] = *outline else { return false };
+    let sides = [side(a, b), side(b, c), side(c, a)];
+    sides == [1; 3] || sides == [-1; 3]
 }

@@ -5,7 +5,7 @@ use glam::{DVec2, IVec2, UVec2};
 use std::ops::Range;
 use umbrage_depth::{FacetBlock, FacetCells, NO_FACET};
 use umbrage_plane::{Affine, TexelRect, View};
-use umbrage_raster::{BIN, Bins, Lines};
+use umbrage_raster::{BIN, Bins, Lines, Seen};
 
 /// 1/256 texel: what corners are snapped to, and all places here are multiples of.
 const SUBTEXELS: i32 = 256;
@@ -67,51 +67,97 @@ fn texels(at: IVec2) -> DVec2 {
     at.as_dvec2() * (1.0 / f64::from(SUBTEXELS))
 }
 
+/// Texels along a side of what is looked at together, in a tile that few triangles reach: where one facet is seen all over, nothing is sampled.
+const PART: usize = 8;
+
+/// A tile of more triangles is not looked at by parts, each of which would go through them all.
+const MOST_FOR_PARTS: usize = 64;
+
 /// A tile's texels, samples and links; `None` when nothing reaches it.
 pub(super) fn tile(view: &View, bins: &Bins, tile: UVec2, refinement: &Refinement) -> Option<Found> {
     if bins.is_empty_tile(tile) {
         return None;
     }
-    let origin = (tile * BIN).as_ivec2() * SUBTEXELS;
-    let fine = refinement.fine as usize;
-    let step = SUBTEXELS / fine as i32;
+    let origin = (tile * BIN).as_ivec2();
+    let own = TexelRect::new(origin * SUBTEXELS, (origin + BIN as i32) * SUBTEXELS);
+    let step = SUBTEXELS / refinement.fine as i32;
     let mut planes: Vec<Affine> = Vec::new();
-    let own = TexelRect::new(origin, origin + BIN as i32 * SUBTEXELS);
-    let centres = nearest(bins, own, SUBTEXELS, SIDE, &mut planes);
-    // One sample more to the right and downward: what lies just beyond a texel belongs to the question whether it is refined.
-    let ringed = TexelRect::new(own.min, own.max + step);
-    let samples = nearest(bins, ringed, step, SIDE * fine + 1, &mut planes);
-    let surface = Surface { view, planes: &planes, tolerance: refinement.tolerance };
-    let place = |sample: usize| {
-        let (x, y) = (sample % samples.side, sample / samples.side);
-        texels(origin + step / 2 + step * IVec2::new(x as i32, y as i32))
-    };
-    let mut blocks = Vec::new();
-    let whole = (view.size() - tile * BIN).min(UVec2::splat(BIN)).as_usizevec2();
-    for texel in 0..CELLS {
-        let (x, y) = (texel % SIDE, texel / SIDE);
-        if x >= whole.x || y >= whole.y {
-            continue;
-        }
-        let facet = centres.facets[texel];
-        let around =
-            (0..=fine).flat_map(|j| (0..=fine).map(move |i| (y * fine + j) * (SIDE * fine + 1) + x * fine + i));
-        // Beyond the map nothing is: its border is no edge.
-        let on_map = |sample: &usize| place(*sample).cmplt(view.size().as_dvec2()).all();
-        if around.filter(on_map).all(|sample| surface.agree(facet, samples.facets[sample], place(sample))) {
-            continue;
-        }
-        let inside = (0..fine).flat_map(|j| (0..fine).map(move |i| (y * fine + j) * (SIDE * fine + 1) + x * fine + i));
-        let samples = inside.map(|sample| samples.facets[sample]).collect();
-        blocks.push(FacetBlock { texel: texel as u16, samples, links: Vec::new() });
+    if let Seen::One(facet) = bins.seen(TexelRect::new(own.min, own.max + step)) {
+        planes.push(facet.plane);
+        let on_map = |texel: usize| (origin + place_of(texel, SIDE)).cmplt(view.size().as_ivec2()).all();
+        let texels = (0..CELLS).map(|texel| if on_map(texel) { 0 } else { NO_FACET }).collect();
+        return Some(Found { planes, texels, blocks: Vec::new() });
     }
-    if !blocks.is_empty() {
-        let links = Links { bins, region: ringed, step, slots: refinement.slots as i32, samples: &samples };
-        links.fill(&surface, &mut blocks, fine);
+    let texels = nearest(bins, own, SUBTEXELS, SIDE, &mut planes).facets;
+    let mut found = Found { planes, texels, blocks: Vec::new() };
+    let side = if bins.reaching(tile) > MOST_FOR_PARTS { SIDE } else { PART };
+    for part in 0..(SIDE / side).pow(2) {
+        let first = place_of(part, SIDE / side) * side as i32;
+        Part { view, bins, refinement, origin, first, side }.refine(&mut found);
     }
-    let texels = centres.facets;
-    let nothing = blocks.is_empty() && texels.iter().all(|facet| *facet == NO_FACET);
-    (!nothing).then_some(Found { planes, texels, blocks })
+    found.blocks.sort_unstable_by_key(|block| block.texel);
+    let nothing = found.blocks.is_empty() && found.texels.iter().all(|facet| *facet == NO_FACET);
+    (!nothing).then_some(found)
+}
+
+/// Column and row of an index, row by row.
+fn place_of(index: usize, columns: usize) -> IVec2 {
+    IVec2::new((index % columns) as i32, (index / columns) as i32)
+}
+
+/// A square of a tile's texels.
+struct Part<'a> {
+    view: &'a View,
+    bins: &'a Bins,
+    refinement: &'a Refinement,
+    /// The tile's first texel, and the square's first in it.
+    origin: IVec2,
+    first: IVec2,
+    /// Texels along a side.
+    side: usize,
+}
+
+impl Part<'_> {
+    /// Adds the blocks of those texels that one plane does not do for.
+    fn refine(&self, found: &mut Found) {
+        let fine = self.refinement.fine as usize;
+        let step = SUBTEXELS / fine as i32;
+        let min = (self.origin + self.first) * SUBTEXELS;
+        // One sample more to the right and downward: what lies just beyond a texel belongs to the question whether it is refined.
+        let region = TexelRect::new(min, min + self.side as i32 * SUBTEXELS + step);
+        if self.bins.seen(region) != Seen::Several {
+            return;
+        }
+        let samples = nearest(self.bins, region, step, self.side * fine + 1, &mut found.planes);
+        let Found { planes, texels: facets, blocks } = found;
+        let surface = Surface { view: self.view, planes, tolerance: self.refinement.tolerance };
+        let place = |sample: usize| texels(min + step / 2 + step * place_of(sample, samples.side));
+        let map = self.view.size();
+        let before = blocks.len();
+        for within in TexelRect::of_size(UVec2::splat(self.side as u32)).texels() {
+            let texel = self.first + within;
+            if (self.origin + texel).cmpge(map.as_ivec2()).any() {
+                continue;
+            }
+            let texel = (texel.y * BIN as i32 + texel.x) as usize;
+            let first = within.as_usizevec2() * fine;
+            let grid =
+                |side: usize| (0..side * side).map(move |k| (first.y + k / side) * samples.side + first.x + k % side);
+            // Beyond the map nothing is: its border is no edge.
+            let on_map = |sample: &usize| place(*sample).cmplt(map.as_dvec2()).all();
+            let own = facets[texel];
+            if grid(fine + 1).filter(on_map).all(|sample| surface.agree(own, samples.facets[sample], place(sample))) {
+                continue;
+            }
+            let samples = grid(fine).map(|sample| samples.facets[sample]).collect();
+            blocks.push(FacetBlock { texel: texel as u16, samples, links: Vec::new() });
+        }
+        if blocks.len() > before {
+            let slots = self.refinement.slots as i32;
+            let links = Links { bins: self.bins, region, step, slots, samples: &samples, first: self.first };
+            links.fill(&surface, &mut blocks[before..], fine);
+        }
+    }
 }
 
 /// The nearest facets at the points of a region's grid, `side` points a side. Planes that are nearest somewhere are added to `planes`.
@@ -180,6 +226,8 @@ struct Links<'a> {
     step: i32,
     slots: i32,
     samples: &'a Nearest,
+    /// Where in the tile the region begins, texels.
+    first: IVec2,
 }
 
 /// A link from a sample to its neighbour.
@@ -209,9 +257,9 @@ impl Links<'_> {
         let mut links: Vec<Vec<Link>> = (0..side).map(|_| Vec::new()).collect();
         let map = surface.view.size().as_dvec2();
         for (index, block) in blocks.iter().enumerate() {
-            let texel = usize::from(block.texel);
+            let texel = (place_of(usize::from(block.texel), SIDE) - self.first).as_usizevec2() * fine;
             for number in 0..fine * fine {
-                let (x, y) = (texel % SIDE * fine + number % fine, texel / SIDE * fine + number / fine);
+                let (x, y) = (texel.x + number % fine, texel.y + number / fine);
                 let sample = y * side + x;
                 let (a, b) = (self.samples.facets[sample], self.samples.facets[sample + next]);
                 let ends = [self.place(sample), self.place(sample + next)];
