@@ -2,25 +2,49 @@
 
 use super::{CELLS, Refinement};
 use glam::{DVec2, IVec2, UVec2};
+use std::collections::HashMap;
 use std::ops::Range;
 use umbrage_depth::{FacetBlock, FacetCells, NO_FACET};
-use umbrage_plane::{Affine, TexelRect, View};
+use umbrage_plane::{Affine, Facet, TexelRect, View};
 use umbrage_raster::{BIN, Bins, Lines, Seen};
 
 /// 1/256 texel: what corners are snapped to, and all places here are multiples of.
 const SUBTEXELS: i32 = 256;
 const SIDE: usize = BIN as usize;
 
+/// Planes of a tile, each once.
+#[derive(Default)]
+struct Planes {
+    planes: Vec<Affine>,
+    /// From triangles to planes.
+    index: HashMap<u32, u32>,
+}
+
+impl Planes {
+    /// The index of a facet's plane, were it added; whether it has been is for [`Planes::add`].
+    fn of(&self, facet: &Facet) -> u32 {
+        self.index.get(&facet.triangle).copied().unwrap_or(self.planes.len() as u32)
+    }
+
+    /// Adds a facet's plane, unless it is there.
+    fn add(&mut self, facet: &Facet, index: u32) {
+        if index as usize == self.planes.len() {
+            self.planes.push(facet.plane);
+            self.index.insert(facet.triangle, index);
+        }
+    }
+}
+
 /// What is kept of a tile.
 pub(super) struct Found {
-    planes: Vec<Affine>,
+    planes: Planes,
     texels: Vec<u32>,
     blocks: Vec<FacetBlock>,
 }
 
 impl Found {
     pub fn cells(&self) -> FacetCells<'_> {
-        FacetCells { planes: &self.planes, texels: &self.texels, blocks: &self.blocks }
+        FacetCells { planes: &self.planes.planes, texels: &self.texels, blocks: &self.blocks }
     }
 }
 
@@ -81,9 +105,9 @@ pub(super) fn tile(view: &View, bins: &Bins, tile: UVec2, refinement: &Refinemen
     let origin = (tile * BIN).as_ivec2();
     let own = TexelRect::new(origin * SUBTEXELS, (origin + BIN as i32) * SUBTEXELS);
     let step = SUBTEXELS / refinement.fine as i32;
-    let mut planes: Vec<Affine> = Vec::new();
+    let mut planes = Planes::default();
     if let Seen::One(facet) = bins.seen(TexelRect::new(own.min, own.max + step)) {
-        planes.push(facet.plane);
+        planes.add(&facet, 0);
         let on_map = |texel: usize| (origin + place_of(texel, SIDE)).cmplt(view.size().as_ivec2()).all();
         let texels = (0..CELLS).map(|texel| if on_map(texel) { 0 } else { NO_FACET }).collect();
         return Some(Found { planes, texels, blocks: Vec::new() });
@@ -130,7 +154,7 @@ impl Part<'_> {
         }
         let samples = nearest(self.bins, region, step, self.side * fine + 1, &mut found.planes);
         let Found { planes, texels: facets, blocks } = found;
-        let surface = Surface { view: self.view, planes, tolerance: self.refinement.tolerance };
+        let surface = Surface { view: self.view, planes: &planes.planes, tolerance: self.refinement.tolerance };
         let place = |sample: usize| texels(min + step / 2 + step * place_of(sample, samples.side));
         let map = self.view.size();
         let before = blocks.len();
@@ -146,7 +170,9 @@ impl Part<'_> {
             // Beyond the map nothing is: its border is no edge.
             let on_map = |sample: &usize| place(*sample).cmplt(map.as_dvec2()).all();
             let own = facets[texel];
-            if grid(fine + 1).filter(on_map).all(|sample| surface.agree(own, samples.facets[sample], place(sample))) {
+            let mut width = None;
+            let mut agrees = |sample| surface.agree(own, samples.facets[sample], place(sample), &mut width);
+            if grid(fine + 1).filter(on_map).all(&mut agrees) {
                 continue;
             }
             let samples = grid(fine).map(|sample| samples.facets[sample]).collect();
@@ -161,28 +187,25 @@ impl Part<'_> {
 }
 
 /// The nearest facets at the points of a region's grid, `side` points a side. Planes that are nearest somewhere are added to `planes`.
-fn nearest(bins: &Bins, region: TexelRect, step: i32, side: usize, planes: &mut Vec<Affine>) -> Nearest {
+fn nearest(bins: &Bins, region: TexelRect, step: i32, side: usize, planes: &mut Planes) -> Nearest {
     let mut nearest = Nearest::new(side);
     let first = region.min + step / 2;
     // Spans come facet by facet.
-    let mut last: Option<(u32, u32)> = None;
+    let mut last = (u32::MAX, 0);
     bins.spans(region, Lines::Rows, step, |facet, y, along| {
         let points = points(&along, first.x, step, side);
         if points.is_empty() {
             return;
         }
-        let index = match last {
-            Some((triangle, index)) if triangle == facet.triangle => index,
-            _ => planes.len() as u32,
-        };
+        if last.0 != facet.triangle {
+            last = (facet.triangle, planes.of(facet));
+        }
+        let index = last.1;
         let key = facet.plane.at(texels(IVec2::new(first.x, y)));
         let dx = facet.plane.dx * (f64::from(step) / f64::from(SUBTEXELS));
         let row = ((y - first.y) / step) as usize;
-        if nearest.offer(row, points, key, dx, index) && index as usize == planes.len() {
-            planes.push(facet.plane);
-        }
-        if (index as usize) < planes.len() {
-            last = Some((facet.triangle, index));
+        if nearest.offer(row, points, key, dx, index) {
+            planes.add(facet, index);
         }
     });
     nearest
@@ -201,13 +224,17 @@ impl Surface<'_> {
         self.planes.get(facet as usize).map_or(f64::INFINITY, |plane| plane.at(at))
     }
 
-    /// Whether a sample lies on its texel's own plane, to the tolerance.
-    fn agree(&self, texel: u32, sample: u32, at: DVec2) -> bool {
+    /// Whether a sample lies on its texel's own plane, to the tolerance; `width` is that of the texel, as a key, once it is known.
+    fn agree(&self, texel: u32, sample: u32, at: DVec2, width: &mut Option<f64>) -> bool {
         if texel == sample {
             return true;
         }
+        if texel == NO_FACET || sample == NO_FACET {
+            return false;
+        }
         let (own, found) = (self.key(texel, at), self.key(sample, at));
-        (own - found).abs() <= self.tolerance * self.view.key_width(found.min(own))
+        let width = *width.get_or_insert_with(|| self.view.key_width(own.min(found)));
+        (own - found).abs() <= self.tolerance * width
     }
 
     /// Whether two planes meet between two places: at both they are one, but for roundings.

@@ -93,31 +93,36 @@ impl FacetTile {
         fine: u32,
         depth: impl Fn(IVec2, &Affine) -> f32,
     ) -> Option<Self> {
-        let all = || cells.texels.iter().chain(cells.blocks.iter().flat_map(|block| &block.samples));
-        if all().all(|plane| *plane == NO_FACET) {
+        let mut all = cells.texels.iter().chain(cells.blocks.iter().flat_map(|block| &block.samples));
+        if all.all(|plane| *plane == NO_FACET) {
             return None;
         }
         let middle = origin.as_dvec2() + 0.5 * f64::from(TILE);
         let texel_of = |index: usize| IVec2::new((index % TILE as usize) as i32, (index / TILE as usize) as i32);
         let plane_of = |plane: u32| cells.planes.get(plane as usize).copied().unwrap_or(NOTHING);
-        let inside = |index: &usize| texel_of(*index).cmplt(valid.as_ivec2()).all();
-        let mut range: Option<DepthRange> = None;
-        let mut base = f64::INFINITY;
-        let mut depths = vec![f32::INFINITY; AREA];
-        for index in (0..AREA).filter(inside) {
-            let texel = origin + texel_of(index);
-            let plane = plane_of(cells.texels[index]);
-            base = base.min(plane.at(texel.as_dvec2() + 0.5));
-            depths[index] = depth(texel, &plane);
-            let one = DepthRange { min: depths[index], max: depths[index] };
-            range = Some(range.map_or(one, |range| range.union(one)));
-        }
-        let range = range.unwrap_or(DepthRange::NOTHING);
         let exact = fine == 1;
-        let base = if base.is_finite() { base } else { 0.0 };
-        let table = Table::new(cells, all(), |plane| Self::near(&plane_of(plane), base, middle), exact);
+        let mut range: Option<DepthRange> = None;
+        let mut depths = Vec::new();
+        if exact {
+            depths.resize(AREA, f32::INFINITY);
+            let inside = |index: &usize| texel_of(*index).cmplt(valid.as_ivec2()).all();
+            for index in (0..AREA).filter(inside) {
+                depths[index] = depth(origin + texel_of(index), &plane_of(cells.texels[index]));
+                let one = DepthRange { min: depths[index], max: depths[index] };
+                range = Some(range.map_or(one, |range| range.union(one)));
+            }
+        }
+        // Filters that ask refined maps ask their samples.
+        let range = range.unwrap_or(DepthRange::UNKNOWN);
+        // A key that is seen in the tile, for differences from it to be small.
+        let base = cells
+            .texels
+            .iter()
+            .position(|plane| *plane != NO_FACET)
+            .map_or(0.0, |index| plane_of(cells.texels[index]).at((origin + texel_of(index)).as_dvec2() + 0.5));
+        let table = Table::new(cells, |plane| Self::near(&plane_of(plane), base, middle), exact);
         let blocks = (!cells.blocks.is_empty()).then(|| Box::new(Blocks::new(cells, &table, fine)));
-        let texels = Packed::new(&cells.texels.iter().map(|plane| table.index[plane]).collect::<Vec<_>>());
+        let texels = Packed::new(&cells.texels.iter().map(|plane| table.index(*plane)).collect::<Vec<_>>());
         let (small, bytes) = (table.kept.len() <= 1 << 16, table.bytes(exact) + texels.bytes());
         let own = AREA * if exact { size_of::<f32>() } else { size_of::<f32>() + size_of::<[f16; 2]>() };
         let blocks = blocks.filter(|_| small);
@@ -245,8 +250,8 @@ impl Planes {
 
 /// The planes that a tile refers to, each once.
 struct Table {
-    /// From the caller's index to the table's.
-    index: BTreeMap<u32, u32>,
+    /// From the caller's index to the table's, the last for no facet; [`NO_FACET`] where nothing refers to it.
+    index: Vec<u32>,
     /// The first of the caller's indices for each entry.
     kept: Vec<u32>,
     near: Vec<[f32; 3]>,
@@ -254,16 +259,13 @@ struct Table {
 
 impl Table {
     /// Planes that are the same three floats are one entry, unless all bits are to be kept.
-    fn new<'a>(
-        cells: &FacetCells<'_>,
-        all: impl Iterator<Item = &'a u32>,
-        near: impl Fn(u32) -> [f32; 3],
-        exact: bool,
-    ) -> Self {
-        let mut table = Self { index: BTreeMap::new(), kept: Vec::new(), near: Vec::new() };
+    fn new(cells: &FacetCells<'_>, near: impl Fn(u32) -> [f32; 3], exact: bool) -> Self {
+        let none = cells.planes.len();
+        let mut table = Self { index: vec![NO_FACET; none + 1], kept: Vec::new(), near: Vec::new() };
         let mut same: BTreeMap<[u64; 3], u32> = BTreeMap::new();
-        for &plane in all {
-            if table.index.contains_key(&plane) {
+        for &plane in cells.texels.iter().chain(cells.blocks.iter().flat_map(|block| &block.samples)) {
+            let place = (plane as usize).min(none);
+            if table.index[place] != NO_FACET {
                 continue;
             }
             let rounded = near(plane);
@@ -276,9 +278,14 @@ impl Table {
                 table.near.push(rounded);
                 table.kept.len() as u32 - 1
             });
-            table.index.insert(plane, entry);
+            table.index[place] = entry;
         }
         table
+    }
+
+    /// The entry of a plane that something refers to.
+    fn index(&self, plane: u32) -> u32 {
+        self.index[(plane as usize).min(self.index.len() - 1)]
     }
 
     fn bytes(&self, exact: bool) -> usize {
@@ -308,7 +315,7 @@ impl Blocks {
         let (mut samples, mut first, mut places) = (Vec::new(), Vec::new(), Vec::new());
         for (block, kept) in cells.blocks.iter().zip(blocks.kept.chunks_exact_mut(words)) {
             blocks.refined[usize::from(block.texel) / TILE as usize] |= 1 << (u32::from(block.texel) % TILE);
-            samples.extend(block.samples.iter().map(|plane| table.index[plane]));
+            samples.extend(block.samples.iter().map(|plane| table.index(*plane)));
             first.push(places.len() as u32);
             for (link, place) in &block.links {
                 kept[usize::from(*link) / 32] |= 1 << (link % 32);
