@@ -117,13 +117,18 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
         ),
     ];
     let sum = |name: &str| found[index(name)].iter().map(|one| one.acne).sum::<f64>();
-    let others = METHODS.iter().filter(|method| method.0 != "midpoint in the cone").map(|method| sum(method.0));
+    let own = ["midpoint in the cone", "auto: facets, two planes"];
+    let others = METHODS.iter().filter(|method| !own.contains(&method.0)).map(|method| sum(method.0));
     measures.push(Measure::at_most(
-        "midpoints in the cone: false shadow on all scenes less the least of the others",
+        "midpoints in the cone: false shadow on all scenes less the least of the others but auto",
         sum("midpoint in the cone") - others.fold(f64::INFINITY, f64::min),
         "sum of shares",
         0.0,
     ));
+    for (fault, of) in [("false shadow", faults[0].1), ("leak", faults[1].1)] {
+        let name = format!("auto: worst {fault} of all");
+        measures.push(Measure::at_most(&name, worst("auto: facets, two planes", of, false), "share", 0.002));
+    }
     let clean = |one: &Judged| !(one.acne > MOST_ACNE || one.leak > MOST_LEAK || one.rms.is_nan());
     let counts = found.iter().map(|row| row.iter().filter(|one| clean(one)).count());
     for (method, ((name, _), count)) in METHODS.iter().zip(counts).enumerate() {

@@ -18,7 +18,7 @@ use umbrage_shadow::Shadow;
 /// and Wang & Molnar's 15 in theirs.
 pub(super) type Method = (&'static str, &'static str);
 
-pub(super) const METHODS: [Method; 10] = [
+pub(super) const METHODS: [Method; 11] = [
     ("ordinary z-buffer", "reeves87,pattern=centre,res-factor=0,bias=3.5t"),
     ("Williams 1978", "williams78,lookup=bilinear,dither=1,bias=3.5t"),
     ("Reeves 1987", "reeves87,bias=3..4t"),
@@ -29,6 +29,7 @@ pub(super) const METHODS: [Method; 10] = [
     ("tangent plane, filtered", "reeves87,depth=plane,bias=0.5t"),
     ("midpoint in the cone", "woo92,depth=cone"),
     ("second depth, tangent plane, filtered", "reeves87,stored=back-face,depth=plane,slack=1,bias=0"),
+    ("auto: facets, two planes", "auto"),
 ];
 
 /// So many of them, the first, are published as such.
@@ -150,6 +151,13 @@ fn sizes(cx: &Context) -> anyhow::Result<Made> {
             3.0,
         ),
         Measure::info("midpoints, 512²: gap behind the leg", of("Woo 1992", at_512).1, "world units"),
+        Measure::at_most(
+            "auto, smallest map: gap behind the leg",
+            of("auto: facets, two planes", 0).1,
+            "world units",
+            1.0,
+        ),
+        Measure::info("auto, smallest map: error", of("auto: facets, two planes", 0).0.rms, "rms share"),
         Measure::info("second depth, smallest map: error", of("Wang & Molnar 1994", 0).0.rms, "rms share"),
         Measure::info("bias, largest map: error", of("Reeves 1987", last).0.rms, "rms share"),
         Measure::info(
@@ -225,6 +233,8 @@ fn grazing(cx: &Context) -> anyhow::Result<Made> {
         Measure::at_least("cone of slope 2, far beyond its 63.4°: false shadow", of("Burley 2006").acne, "share", 0.05),
         Measure::at_most("tangent plane, filtered: false shadow", of("tangent plane, filtered").acne, "share", 0.005),
         Measure::info("midpoints: false shadow", of("Woo 1992").acne, "share"),
+        Measure::at_most("auto: false shadow", of("auto: facets, two planes").acne, "share", 0.0005),
+        Measure::at_most("auto: leak", of("auto: facets, two planes").leak, "share", 0.0005),
     ];
     made.note = "A bias that would end the false shadow of plain comparison here is longer than the things are thick. What is known of the surface \
                  or of what lies behind it helps; a larger bias does not."

@@ -1,5 +1,6 @@
 //! What no paper shows: methods side by side, fault by fault, on all scenes.
 
+mod auto;
 mod curves;
 mod faults;
 mod matrix;
@@ -20,4 +21,6 @@ pub const FIGURES: &[&Figure] = &[
     &matrix::PRESETS,
     &paging::PAGING,
     &softness::SOFTNESS,
+    &auto::LADDER_OF_PARTS,
+    &auto::BYTES,
 ];

@@ -1,0 +1,243 @@
+//! Our own: what the default is made of, and what it costs, against rays.
+
+use super::methods::row;
+use crate::figure::{Context, Figure, Paper};
+use crate::stage::masks::{shadow_grid, value};
+use crate::stage::panels::{error_panel, shadow_panel, truth_panel};
+use crate::stage::set::Set;
+use std::sync::Arc;
+use umbrage_depth::DepthMap;
+use umbrage_oracle::metrics;
+use umbrage_recipe::Recipe;
+use umbrage_render::{Frame, Picture, light_map};
+use umbrage_report::plot::{Axis, Plot, Series};
+use umbrage_report::{Made, Measure, Table};
+use umbrage_scene::gallery::{self, Make};
+
+/// Scenes with one light and hard shadows whose casters all lie in its map.
+const STAGES: [(&str, Make); 14] = [
+    ("sphere, slab", gallery::sphere_plane),
+    ("box, slab", gallery::box_plane),
+    ("spot room", gallery::spot_room),
+    ("table", gallery::table),
+    ("contact box", gallery::contact_box),
+    ("overlapping boxes", gallery::overlapping_boxes),
+    ("two heights", gallery::two_heights),
+    ("pipes", gallery::pipes),
+    ("walk-through", gallery::walkthrough),
+    ("bowling", || gallery::bowling(0)),
+    ("low sun", gallery::grazing),
+    ("thin slab", gallery::thin_slab),
+    ("flat sheets", || gallery::sheets(false)),
+    ("bent sheets", || gallery::sheets(true)),
+];
+
+/// The best mixture of the papers' parts.
+const MIX: &str = "wang-molnar94,stored=midpoint,pattern=tent";
+
+/// What each part adds, in turn; the first two are the controls.
+const LADDER: [(&str, &str); 7] = [
+    ("Woo 1992", "woo92"),
+    ("midpoints, tangent plane, a tent: the papers' best mixture", MIX),
+    ("facets: two planes, one place", "auto,fine=1,across=1"),
+    ("and the mean of 4 × 4 places", "auto,fine=1"),
+    ("and 4 × 4 samples where one plane does not do, edges halfway", "auto,slots=2"),
+    ("and links of 16 slots: auto", "auto"),
+    ("and 8 × 8 places", "auto,across=8"),
+];
+
+/// A picture against 64 rays a pixel.
+#[derive(Clone, Copy)]
+struct Error {
+    /// Root mean square over pixels that see one surface, facing the light.
+    rms: f64,
+    /// Share of those more than three pixels from truth's edges that are wrong by more than a half.
+    wrong: f64,
+}
+
+/// A scene, its truth, and which pixels are judged.
+struct Judge {
+    set: Set,
+    truth: Arc<Picture>,
+    seen: Vec<bool>,
+    /// Those of them that are far from truth's edges.
+    sure: Vec<bool>,
+}
+
+impl Judge {
+    fn new(cx: &Context, make: Make, pixels: u32, texels: u32) -> Self {
+        const FACING: f32 = 0.02;
+        let set = Set::new(make(), pixels, texels);
+        let truth = set.truth(cx);
+        let centre = set.plain(cx, &Frame::CENTRES);
+        // One surface: all samples are of one object and face the light as the centre does.
+        let one = |i: usize| truth.share[i] == 1.0 && (truth.facing[0][i] - centre.facing[0][i]).abs() < FACING;
+        let seen: Vec<bool> = (0..truth.share.len()).map(|i| one(i) && truth.facing[0][i] > FACING).collect();
+        let lit = metrics::lit_mask(shadow_grid(&truth), &truth.facing[0], 3, FACING);
+        let dark = metrics::dark_mask(shadow_grid(&truth), &truth.facing[0], 3, FACING);
+        let far: Vec<bool> = lit.iter().zip(&dark).map(|(lit, dark)| *lit || *dark).collect();
+        let sure = metrics::both(&far, &seen);
+        Self { set, truth, seen, sure }
+    }
+
+    fn error(&self, picture: &Picture) -> Error {
+        let (own, exact) = (&picture.shadow[0], &self.truth.shadow[0]);
+        let sure = || (0..own.len()).filter(|&i| self.sure[i]);
+        let wrong = sure().filter(|&i| (own[i] - exact[i]).abs() > 0.5).count();
+        Error { rms: value(metrics::rms(own, exact, &self.seen)), wrong: wrong as f64 / sure().count().max(1) as f64 }
+    }
+
+    /// A recipe's picture, and all bytes of its map for each texel.
+    fn by(&self, cx: &Context, recipe: &str, frame: &Frame) -> anyhow::Result<(Picture, f64)> {
+        let recipe: Recipe = recipe.parse()?;
+        let view = &self.set.scene.lights[0].view;
+        let map = light_map(&recipe, &self.set.scene, view);
+        let bytes = map.clone().kept(cx.storage).allocated() as f64 / f64::from(view.size().element_product());
+        Ok((self.set.draw(cx, &*recipe.bind(map, cx.storage)?, frame), bytes))
+    }
+}
+
+fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    values.clone().sum::<f64>() / values.count().max(1) as f64
+}
+
+pub const LADDER_OF_PARTS: Figure = Figure {
+    id: "U-auto-ladder",
+    paper: Paper::Umbrage,
+    title: "What each part of the default adds",
+    claim: "Without a bias, one small map of facets comes closer to many rays a pixel than one exact ray does.",
+    make: ladder,
+};
+
+fn ladder(cx: &Context) -> anyhow::Result<Made> {
+    let (pixels, texels) = (cx.pick(256, 128), cx.pick(512, 256));
+    let mut made = Made::default();
+    let mut found = vec![Vec::new(); LADDER.len()];
+    let (mut exact, mut bytes) = (Vec::new(), Vec::new());
+    for (name, make) in STAGES {
+        let judge = Judge::new(cx, make, pixels, texels);
+        exact.push(judge.error(&judge.set.truth_points(cx, &Frame::CENTRES)));
+        for (step, (caption, recipe)) in LADDER.iter().enumerate() {
+            let (picture, kept) = judge.by(cx, recipe, &Frame::CENTRES)?;
+            found[step].push(judge.error(&picture));
+            if *recipe == "auto" {
+                bytes.push(kept);
+            }
+            if name == "table" && (step == 1 || *recipe == "auto") {
+                let id = if step == 1 { "mix" } else { "auto" };
+                made.panels.push(shadow_panel(id, caption, &picture).with("recipe", recipe).against("truth"));
+                let (own, truth) = (&picture.shadow[0], &judge.truth.shadow[0]);
+                made.panels.push(error_panel(&format!("{id}-error"), "Less truth", picture.size, own, truth));
+            }
+        }
+        if name == "table" {
+            made.panels.push(truth_panel(&judge.truth));
+        }
+    }
+    let head = || ["error, rms"].into_iter().chain(STAGES.iter().map(|stage| stage.0)).chain(["mean"]);
+    let head = head().map(String::from).collect();
+    let line = |name: &str, errors: &[Error]| {
+        let all = errors.iter().map(|error| error.rms);
+        row(name, all.clone().chain([mean(all)]))
+    };
+    let mut rows = vec![line("one exact ray at the centre", &exact)];
+    rows.extend(LADDER.iter().zip(&found).map(|((name, _), errors)| line(name, errors)));
+    rows.push(row("auto: bytes for each texel", bytes.iter().copied().chain([mean(bytes.iter().copied())])));
+    made.tables.push(Table { name: "errors".into(), head, rows });
+    let rms = |step: usize| mean(found[step].iter().map(|error| error.rms));
+    let ray = mean(exact.iter().map(|error| error.rms));
+    let mut plot = Plot::new(
+        "Error, mean of all scenes, as each part is added",
+        Axis::linear("part"),
+        Axis::linear("rms of the fraction in shadow"),
+    );
+    let steps = (0..LADDER.len()).map(|step| (step as f64, rms(step))).collect();
+    let level = vec![(0.0, ray), (LADDER.len() as f64 - 1.0, ray)];
+    plot = plot
+        .add(Series::line("against 64 rays a pixel", steps))
+        .add(Series::line("one exact ray at the centre", level));
+    made.plots.push(("ladder".into(), plot.svg()));
+    let auto = LADDER.iter().position(|(_, recipe)| *recipe == "auto").unwrap_or(0);
+    let wrong = |step: usize| mean(found[step].iter().map(|error| error.wrong));
+    made.measures = vec![
+        Measure::at_most("auto: error, mean of all scenes", rms(auto), "rms", 0.012).full_size(cx.quick),
+        Measure::at_most("auto: false shadow and false light, mean", wrong(auto), "share", 0.0005),
+        Measure::at_most("auto over one exact ray: error", rms(auto) / ray, "times", 0.5).full_size(cx.quick),
+        Measure::at_most("auto over the papers' best mixture: error", rms(auto) / rms(1), "times", 0.5)
+            .full_size(cx.quick),
+        Measure::at_most("auto: bytes for each texel, mean", mean(bytes.iter().copied()), "bytes", 2.8)
+            .full_size(cx.quick),
+        Measure::at_most("auto: bytes for each texel, most", bytes.iter().copied().fold(0.0, f64::max), "bytes", 9.0),
+        Measure::info("8 × 8 places: error, mean of all scenes", rms(LADDER.len() - 1), "rms"),
+        Measure::info("papers' best mixture: error, mean of all scenes", rms(1), "rms"),
+        Measure::info("one exact ray: error, mean of all scenes", ray, "rms"),
+    ];
+    made.note = "Judged are pixels all of whose samples see one surface that faces the light; truth is the mean of 64 rays, one look-up is made for each \
+                 pixel, and no parameter is set for a scene. A pixel that sees two surfaces is asked about one of them; with more visibility samples each \
+                 surface is asked about."
+        .into();
+    Ok(made)
+}
+
+pub const BYTES: Figure = Figure {
+    id: "U-auto-bytes",
+    paper: Paper::Umbrage,
+    title: "Error against memory",
+    claim: "A map of facets is more exact than a depth map of many times its bytes.",
+    make: bytes,
+};
+
+/// Facet maps by the samples along a refined texel's side.
+const FINE: [u32; 4] = [1, 2, 4, 8];
+
+fn bytes(cx: &Context) -> anyhow::Result<Made> {
+    let pixels = cx.pick(256, 96);
+    let sizes: &[u32] = if cx.quick { &[128, 512] } else { &[64, 128, 256, 512, 1024, 2048] };
+    let stages: &[usize] = &[3, 4, 7, 8, 10];
+    // Means over the scenes: kilobytes and error, by recipe and size.
+    let recipes: Vec<(String, String)> =
+        std::iter::once(("depths, the papers' best mixture".to_string(), MIX.to_string()))
+            .chain(FINE.iter().map(|fine| {
+                let slots = 16.min(64 / fine);
+                (format!("facets, {fine} × {fine}"), format!("auto,fine={fine},slots={slots}"))
+            }))
+            .collect();
+    let mut found = vec![vec![(0.0, 0.0); sizes.len()]; recipes.len()];
+    for (at, &texels) in sizes.iter().enumerate() {
+        for &stage in stages {
+            let judge = Judge::new(cx, STAGES[stage].1, pixels, texels);
+            for (which, (_, recipe)) in recipes.iter().enumerate() {
+                let (picture, each) = judge.by(cx, recipe, &Frame::CENTRES)?;
+                let area = f64::from(judge.set.scene.lights[0].view.size().element_product());
+                let one = &mut found[which][at];
+                one.0 += each * area / 1024.0 / stages.len() as f64;
+                one.1 += judge.error(&picture).rms / stages.len() as f64;
+            }
+        }
+    }
+    let mut made = Made::default();
+    let mut plot = Plot::new(
+        "Error against memory, mean of five scenes",
+        Axis::log("kilobytes of the map"),
+        Axis::log("rms of the fraction in shadow"),
+    );
+    let mut rows = Vec::new();
+    for ((name, _), points) in recipes.iter().zip(&found) {
+        plot = plot.add(Series::line(name, points.clone()));
+        let cells = points.iter().map(|(kilobytes, rms)| format!("{rms:.4} in {kilobytes:.0} KB"));
+        rows.push(std::iter::once(name.clone()).chain(cells).collect());
+    }
+    made.plots.push(("bytes".into(), plot.svg()));
+    let head = std::iter::once("map".to_string()).chain(sizes.iter().map(|side| format!("{side}²"))).collect();
+    made.tables.push(Table { name: "error and memory".into(), head, rows });
+    let at_512 = sizes.iter().position(|side| *side == 512).unwrap_or(0);
+    let (auto, last) = (found[3][at_512], sizes.len() - 1);
+    made.measures = vec![
+        Measure::at_most("4 × 4 at 512² over the largest depth map: error", auto.1 / found[0][last].1, "times", 1.0),
+        Measure::at_most("4 × 4 at 512² over the largest depth map: bytes", auto.0 / found[0][last].0, "times", 0.5),
+        Measure::at_most("4 × 4 over 1 × 1 at 512²: error", auto.1 / found[1][at_512].1, "times", 0.8)
+            .full_size(cx.quick),
+    ];
+    made.note = "Bytes are all that a map holds, tables and directories included.".into();
+    Ok(made)
+}
