@@ -35,7 +35,10 @@ const STAGES: [(&str, Make); 14] = [
 /// The best mixture of the papers' parts.
 const MIX: &str = "wang-molnar94,stored=midpoint,pattern=tent";
 
-/// What each part adds, in turn; the first two are the controls.
+/// So many recipes of the ladder, the first, are controls.
+const CONTROLS: usize = 2;
+
+/// What each part adds, in turn, after the controls.
 const LADDER: [(&str, &str); 7] = [
     ("Woo 1992", "woo92"),
     ("midpoints, tangent plane, a tent: the papers' best mixture", MIX),
@@ -148,14 +151,15 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
     let ray = mean(exact.iter().map(|error| error.rms));
     let mut plot = Plot::new(
         "Error, mean of all scenes, as each part is added",
-        Axis::linear("part"),
+        Axis::linear("parts"),
         Axis::linear("rms of the fraction in shadow"),
     );
-    let steps = (0..LADDER.len()).map(|step| (step as f64, rms(step))).collect();
-    let level = vec![(0.0, ray), (LADDER.len() as f64 - 1.0, ray)];
-    plot = plot
-        .add(Series::line("against 64 rays a pixel", steps))
-        .add(Series::line("one exact ray at the centre", level));
+    let parts = (CONTROLS..LADDER.len()).map(|step| ((step - CONTROLS + 1) as f64, rms(step))).collect();
+    plot = plot.add(Series::line("auto part by part", parts));
+    let level = |rms: f64| vec![(1.0, rms), ((LADDER.len() - CONTROLS) as f64, rms)];
+    for (name, rms) in [("Woo 1992", rms(0)), ("papers' best mixture", rms(1)), ("one exact ray at the centre", ray)] {
+        plot = plot.add(Series::line(name, level(rms)));
+    }
     made.plots.push(("ladder".into(), plot.svg()));
     let auto = LADDER.iter().position(|(_, recipe)| *recipe == "auto").unwrap_or(0);
     let wrong = |step: usize| mean(found[step].iter().map(|error| error.wrong));
@@ -196,10 +200,10 @@ fn bytes(cx: &Context) -> anyhow::Result<Made> {
     let stages: &[usize] = &[3, 4, 7, 8, 10];
     // Means over the scenes: kilobytes and error, by recipe and size.
     let recipes: Vec<(String, String)> =
-        std::iter::once(("depths, the papers' best mixture".to_string(), MIX.to_string()))
+        std::iter::once(("depths under the papers' best mixture".to_string(), MIX.to_string()))
             .chain(FINE.iter().map(|fine| {
                 let slots = 16.min(64 / fine);
-                (format!("facets, {fine} × {fine}"), format!("auto,fine={fine},slots={slots}"))
+                (format!("facets with {fine} × {fine} samples"), format!("auto,fine={fine},slots={slots}"))
             }))
             .collect();
     let mut found = vec![vec![(0.0, 0.0); sizes.len()]; recipes.len()];
@@ -234,7 +238,8 @@ fn bytes(cx: &Context) -> anyhow::Result<Made> {
     let (auto, last) = (found[3][at_512], sizes.len() - 1);
     made.measures = vec![
         Measure::at_most("4 × 4 at 512² over the largest depth map: error", auto.1 / found[0][last].1, "times", 1.0),
-        Measure::at_most("4 × 4 at 512² over the largest depth map: bytes", auto.0 / found[0][last].0, "times", 0.5),
+        Measure::at_most("4 × 4 at 512² over the largest depth map: bytes", auto.0 / found[0][last].0, "times", 0.5)
+            .full_size(cx.quick),
         Measure::at_most("4 × 4 over 1 × 1 at 512²: error", auto.1 / found[1][at_512].1, "times", 0.8)
             .full_size(cx.quick),
     ];

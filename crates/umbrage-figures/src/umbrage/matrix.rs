@@ -127,7 +127,8 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
     ));
     for (fault, of) in [("false shadow", faults[0].1), ("leak", faults[1].1)] {
         let name = format!("auto: worst {fault} of all");
-        measures.push(Measure::at_most(&name, worst("auto: facets, two planes", of, false), "share", 0.002));
+        let worst = worst("auto: facets, two planes", of, false);
+        measures.push(Measure::at_most(&name, worst, "share", 0.002).full_size(cx.quick));
     }
     let clean = |one: &Judged| !(one.acne > MOST_ACNE || one.leak > MOST_LEAK || one.rms.is_nan());
     let counts = found.iter().map(|row| row.iter().filter(|one| clean(one)).count());
