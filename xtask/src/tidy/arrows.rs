@@ -29,7 +29,7 @@ const RULES: &[Rule] = &[
     Rule {
         package: "umbrage-depth",
         arrows: &["umbrage-plane"],
-        outside: &["fearless_simd", "glam", "thiserror"],
+        outside: &["fearless_simd", "glam", "half", "thiserror"],
         tests: PROPERTIES,
     },
     Rule {

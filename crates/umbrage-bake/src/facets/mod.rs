@@ -1,6 +1,9 @@
 //! Pass 1 of maps that keep facets.
 
 mod refined;
+mod refinement;
+
+pub use refinement::Refinement;
 
 use crate::pass1::Pass;
 use glam::{IVec2, UVec2};
@@ -25,26 +28,6 @@ pub struct BakedFacets {
     /// What the rasteriser did with the triangles.
     pub stats: Stats,
 }
-
-/// How finely the texels of a [`bake_refined`] map are kept where one plane does not do.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Refinement {
-    /// Samples along a refined texel's side: 2, 4 or 8.
-    pub fine: u32,
-    /// Slots of a link between two samples, even: 2 to 64/`fine`.
-    pub slots: u32,
-    /// How far a sample may lie off its texel's plane before the texel is refined, in widths of a texel there.
-    pub tolerance: f64,
-}
-
-impl Default for Refinement {
-    fn default() -> Self {
-        Self { fine: 4, slots: 16, tolerance: 0.5 }
-    }
-}
-
-umbrage_plane::builders!([] Refinement { with_fine fine: u32, with_slots slots: u32, with_tolerance tolerance: f64 });
 
 /// [`bake`](crate::bake), keeping which facet each texel sees: the same depths, bit for bit, in less room where facets are larger than a
 /// few texels. Of facets at one key the first triangle's.

@@ -1,6 +1,6 @@
 //! One tile of a refined map: texels, samples, and where the first surface changes between them.
 
-use super::{CELLS, Refinement};
+use super::refinement::Refinement;
 use glam::{DVec2, IVec2, UVec2};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -11,6 +11,7 @@ use umbrage_raster::{BIN, Bins, Lines, Seen};
 /// 1/256 texel: what corners are snapped to, and all places here are multiples of.
 const SUBTEXELS: i32 = 256;
 const SIDE: usize = BIN as usize;
+const CELLS: usize = SIDE * SIDE;
 
 /// Planes of a tile, each once.
 #[derive(Default)]

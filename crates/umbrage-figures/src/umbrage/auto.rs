@@ -3,15 +3,16 @@
 use super::methods::row;
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::masks::{shadow_grid, value};
-use crate::stage::panels::{error_panel, shadow_panel, truth_panel};
+use crate::stage::panels::{error_panel, shadow_panel, truth_panel, zoomed};
 use crate::stage::set::Set;
+use glam::DVec2;
 use std::sync::Arc;
 use umbrage_depth::DepthMap;
 use umbrage_oracle::metrics;
 use umbrage_recipe::Recipe;
 use umbrage_render::{Frame, Picture, light_map};
 use umbrage_report::plot::{Axis, Plot, Series};
-use umbrage_report::{Made, Measure, Table};
+use umbrage_report::{Made, Measure, Role, Table};
 use umbrage_scene::gallery::{self, Make};
 
 /// Scenes with one light and hard shadows whose casters all lie in its map.
@@ -48,6 +49,11 @@ const LADDER: [(&str, &str); 7] = [
     ("and links of 16 slots: auto", "auto"),
     ("and 8 × 8 places", "auto,across=8"),
 ];
+
+/// The scene that is shown, where its box stands on the ground, and the part of the picture's width around there that is enlarged.
+const SHOWN: &str = "contact box";
+const MIDDLE: DVec2 = DVec2::new(0.25, 0.70);
+const PART: u32 = 3;
 
 /// A picture against 64 rays a pixel.
 #[derive(Clone, Copy)]
@@ -126,15 +132,17 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
             if *recipe == "auto" {
                 bytes.push(kept);
             }
-            if name == "table" && (step == 1 || *recipe == "auto") {
-                let id = if step == 1 { "mix" } else { "auto" };
+            if name == SHOWN && (step == 0 || *recipe == "auto") {
+                let id = if step == 0 { "woo" } else { "auto" };
                 made.panels.push(shadow_panel(id, caption, &picture).with("recipe", recipe).against("truth"));
                 let (own, truth) = (&picture.shadow[0], &judge.truth.shadow[0]);
                 made.panels.push(error_panel(&format!("{id}-error"), "Less truth", picture.size, own, truth));
+                made.panels.push(zoomed(&format!("{id}-zoom"), "Enlarged", &picture, MIDDLE, PART));
             }
         }
-        if name == "table" {
+        if name == SHOWN {
             made.panels.push(truth_panel(&judge.truth));
+            made.panels.push(zoomed("truth-zoom", "Enlarged", &judge.truth, MIDDLE, PART).role(Role::Truth));
         }
     }
     let head = || ["error, rms"].into_iter().chain(STAGES.iter().map(|stage| stage.0)).chain(["mean"]);
@@ -171,7 +179,8 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
             .full_size(cx.quick),
         Measure::at_most("auto: bytes for each texel, mean", mean(bytes.iter().copied()), "bytes", 2.8)
             .full_size(cx.quick),
-        Measure::at_most("auto: bytes for each texel, most", bytes.iter().copied().fold(0.0, f64::max), "bytes", 9.0),
+        Measure::at_most("auto: bytes for each texel, most", bytes.iter().copied().fold(0.0, f64::max), "bytes", 9.0)
+            .full_size(cx.quick),
         Measure::info("8 × 8 places: error, mean of all scenes", rms(LADDER.len() - 1), "rms"),
         Measure::info("papers' best mixture: error, mean of all scenes", rms(1), "rms"),
         Measure::info("one exact ray: error, mean of all scenes", ray, "rms"),

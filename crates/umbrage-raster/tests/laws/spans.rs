@@ -80,7 +80,7 @@ fn a_finer_grid_is_covered_where_a_plain_test_says() {
         let mut state = u64::from(seed) * 2 + 1;
         let mut next = move |most: i32| {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            ((state >> 33) as i64 * i64::from(most) >> 31) as i32
+            (((state >> 33) as i64 * i64::from(most)) >> 31) as i32
         };
         let snapped: Vec<[IVec2; 3]> = (0..30)
             .map(|i| {
