@@ -1,5 +1,5 @@
 use crate::translucent::transmittance;
-use crate::{DepthMap, MapError, Step, Translucent, rows};
+use crate::{DepthMap, MapError, Step, Translucent, no_surface};
 use glam::{DVec3, IVec2, Vec3};
 use std::borrow::Cow;
 use umbrage_plane::{TexelRect, View};
@@ -36,7 +36,7 @@ impl DeepMap {
         for (texel, steps) in TexelRect::of_size(size).texels().zip(texels.by_ref()) {
             let mut before = Step { depth: f32::NEG_INFINITY, passes: Vec3::ONE };
             for step in steps {
-                let problem = if rows::kept(step.depth) == f32::INFINITY {
+                let problem = if no_surface::kept(step.depth) == f32::INFINITY {
                     "a depth that is none"
                 } else if step.depth <= before.depth {
                     "depths that do not ascend"

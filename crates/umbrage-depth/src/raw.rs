@@ -1,4 +1,4 @@
-use crate::{DepthMap, Stored, rows};
+use crate::{DepthMap, Stored, no_surface, rows};
 use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use umbrage_plane::{TexelRect, View};
@@ -68,7 +68,7 @@ impl Raw {
             return Err(MapError::NotADepth { texel, value: depths[index] });
         }
         for depth in &mut depths {
-            *depth = rows::kept(*depth);
+            *depth = no_surface::kept(*depth);
         }
         Ok(Self { view, stored: Stored::First, depths })
     }

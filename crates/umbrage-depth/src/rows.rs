@@ -3,15 +3,6 @@ use fearless_simd::{Simd, f32x16, prelude::*, u32x16};
 use glam::IVec2;
 use umbrage_plane::{TexelRect, floor_texel};
 
-/// Stored values from here on mean that no surface was seen (C-5).
-const NO_SURFACE: f32 = 1e30;
-
-/// The depth that a map keeps for `depth`: +∞ for no surface. NaN and −∞, which are no depths, are no surface either.
-#[inline(always)]
-pub(crate) fn kept(depth: f32) -> f32 {
-    if depth < NO_SURFACE && depth > f32::NEG_INFINITY { depth } else { f32::INFINITY }
-}
-
 /// [`DepthMap::depth`] of depths that are kept row by row for `rect` alone.
 #[inline(always)]
 pub(crate) fn depth(depths: &[f32], rect: TexelRect, texel: IVec2) -> f32 {

@@ -1,10 +1,8 @@
-use crate::{DepthMap, Stored, rows};
+use crate::{DepthMap, Stored, TILE, no_surface};
 use fearless_simd::{Simd, f32x16, prelude::*, u32x16};
 use glam::{IVec2, UVec2};
 use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
 
-/// Columns and rows of a tile.
-pub const TILE: u32 = 32;
 /// Texels of a tile.
 const AREA: usize = (TILE * TILE) as usize;
 /// log₂ of [`TILE`].
@@ -32,7 +30,7 @@ impl Tile {
         for (row, line) in depths.chunks_exact_mut(TILE as usize).enumerate() {
             let (inside, beyond) = line.split_at_mut(if row < valid.y { valid.x } else { 0 });
             for depth in inside {
-                *depth = rows::kept(*depth);
+                *depth = no_surface::kept(*depth);
                 range = range.union(DepthRange { min: *depth, max: *depth });
             }
             beyond.fill(f32::INFINITY);

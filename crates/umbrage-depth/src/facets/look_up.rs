@@ -2,7 +2,7 @@
 
 use super::{FacetMap, FacetTile, SHIFT, tile};
 use crate::{DepthMap, Stored};
-use glam::{IVec2, UVec2};
+use glam::IVec2;
 use umbrage_plane::{DepthRange, TexelRect, View};
 
 /// More tiles than this are not asked for their range.

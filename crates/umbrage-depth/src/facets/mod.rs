@@ -4,7 +4,7 @@ mod look_up;
 mod packed;
 mod tile;
 
-use crate::{Stored, TILE, rows};
+use crate::{Stored, TILE, no_surface};
 use glam::{DVec2, IVec2, UVec2};
 pub use tile::{FacetBlock, FacetCells, FacetTile, NO_FACET};
 use umbrage_plane::{Affine, Decode, TexelRect, View};
@@ -59,7 +59,7 @@ impl FacetDepths {
     #[inline(always)]
     pub fn depth(&self, texel: IVec2, plane: &Affine) -> f32 {
         let at = self.view.sampling().position(texel);
-        rows::kept(self.decode.depth(plane.at(at) as f32, at).max(self.decode.depth(self.nearest, at)))
+        no_surface::kept(self.decode.depth(plane.at(at) as f32, at).max(self.decode.depth(self.nearest, at)))
     }
 }
 
