@@ -1,4 +1,4 @@
-use crate::{Bbox, DeepMap, DepthMap, FacetMap, Raw, Stored, Tiled, Translucent, rows};
+use crate::{Bbox, DeepMap, DepthMap, FacetMap, Facets, Raw, Stored, Tiled, Translucent, rows};
 use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use std::str::FromStr;
@@ -186,8 +186,8 @@ impl DepthMap for Map {
     }
 
     #[inline(always)]
-    fn facets(&self) -> Option<&FacetMap> {
-        if let Self::Facets(map) = self { Some(map) } else { None }
+    fn facets(&self) -> Option<Facets<'_>> {
+        if let Self::Facets(map) = self { Some(Facets::Map(map)) } else { None }
     }
 
     fn stored(&self) -> Stored {

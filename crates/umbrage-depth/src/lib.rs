@@ -71,7 +71,9 @@ pub use bandlimit::bandlimit;
 pub use bbox::Bbox;
 pub use deep::{DeepMap, compress_steps};
 pub use facet_rule::FacetRule;
-pub use facets::{FacetBlock, FacetCells, FacetDepths, FacetMap, FacetSample, FacetTile, NO_FACET};
+pub use facets::{
+    FacetBlock, FacetCells, FacetDepths, FacetMap, FacetSample, FacetSource, FacetTile, Facets, NO_FACET,
+};
 pub use first::First;
 pub use hit::Hit;
 pub use kept::{Map, Storage, StorageError};

@@ -1,4 +1,4 @@
-use crate::{FacetMap, Stored, Translucent};
+use crate::{Facets, Stored, Translucent};
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::IVec2;
 use std::sync::Arc;
@@ -45,9 +45,9 @@ pub trait DepthMap: Send + Sync {
         None
     }
 
-    /// The map itself, where it knows facets; `None` where it knows depths alone.
+    /// What the map knows of facets; `None` where it knows depths alone.
     #[inline(always)]
-    fn facets(&self) -> Option<&FacetMap> {
+    fn facets(&self) -> Option<Facets<'_>> {
         None
     }
 
@@ -95,7 +95,7 @@ macro_rules! forward {
             }
 
             #[inline(always)]
-            fn facets(&self) -> Option<&FacetMap> {
+            fn facets(&self) -> Option<Facets<'_>> {
                 (**self).facets()
             }
 

@@ -147,6 +147,18 @@ impl View {
         (plane.c.is_finite() && plane.dx.is_finite() && plane.dy.is_finite()).then_some(plane)
     }
 
+    /// The plane over this view's texels of a plane over another's that stands at the same place, both in perspective and of a kind whose keys
+    /// are −1/ζ; `None` when it is edge-on to the light.
+    pub fn affine_of(&self, other: &Self, plane: &Affine) -> Option<Affine> {
+        let Projection::Perspective { k, shift } = other.projection else { return None };
+        // The normal whose product with every point of the plane is −1, by the formulas of `affine` backward.
+        let (nx, ny) = (0.5 * plane.dx * f64::from(other.size.x), -0.5 * plane.dy * f64::from(other.size.y));
+        let nz = ny * (1.0 - shift.y) - nx * (1.0 + shift.x) - plane.c;
+        let there = DVec3::new(nx * k.x, ny * k.y, nz);
+        let normal = self.world_to_eye.transform_vector3(other.eye_to_world.transform_vector3(there));
+        self.affine(-normal / normal.length_squared(), normal)
+    }
+
     /// z_s of a plane of −1/ζ or ζ: both are affine in it.
     #[inline(always)]
     fn screen_plane(&self, plane: Affine) -> Affine {

@@ -4,7 +4,7 @@ use crate::pass1::{triangles, views};
 use crate::shapes::{ball, cuboid, quad};
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
 use umbrage_bake::{Refinement, bake, bake_facets, bake_refined};
-use umbrage_depth::{BackFace, DepthMap, FacetMap, FacetRule, First, Second, Tiled};
+use umbrage_depth::{BackFace, DepthMap, FacetMap, FacetRule, FacetSource, First, Second, Tiled};
 use umbrage_plane::{Affine, DepthRange, TexelRect, View};
 use umbrage_raster::{Cull, Triangle};
 

@@ -1,6 +1,6 @@
 //! Maps of facets as what every other map is.
 
-use super::{FacetMap, FacetTile, SHIFT, tile};
+use super::{FacetMap, FacetTile, Facets, SHIFT, tile};
 use crate::{DepthMap, Stored};
 use glam::IVec2;
 use umbrage_plane::{DepthRange, TexelRect, View};
@@ -48,8 +48,8 @@ impl DepthMap for FacetMap {
         self.stored
     }
 
-    fn facets(&self) -> Option<&FacetMap> {
-        Some(self)
+    fn facets(&self) -> Option<Facets<'_>> {
+        Some(Facets::Map(self))
     }
 
     fn bytes(&self) -> usize {

@@ -2,10 +2,12 @@
 
 mod look_up;
 mod packed;
+mod source;
 mod tile;
 
 use crate::{Stored, TILE, no_surface};
 use glam::{DVec2, IVec2, UVec2};
+pub use source::{FacetSample, FacetSource, Facets};
 pub use tile::{FacetBlock, FacetCells, FacetTile, NO_FACET};
 use umbrage_plane::{Affine, Decode, TexelRect, View};
 
@@ -29,15 +31,6 @@ pub struct FacetMap {
     slots: u32,
     grid: UVec2,
     tiles: Vec<Option<FacetTile>>,
-}
-
-/// A sample of a facet map.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FacetSample {
-    /// Its facet's plane, over texels of the map; a key of +∞ everywhere where there is none.
-    pub plane: Affine,
-    /// The side of what it stands for, texels: 1, or 1/fine in a refined texel.
-    pub side: f64,
 }
 
 /// What a facet map makes of keys: apart from the map, so that tiles can be packed before it exists.
@@ -76,11 +69,6 @@ impl FacetMap {
         Self { depths: FacetDepths::of(&view), stored, fine, slots, grid, tiles }
     }
 
-    /// Samples along a refined texel's side.
-    pub fn fine(&self) -> u32 {
-        self.fine
-    }
-
     /// Parts of a link of which one is remembered as where the surface changes.
     pub fn slots(&self) -> u32 {
         self.slots
@@ -102,76 +90,13 @@ impl FacetMap {
         Some((kept, (tile << SHIFT).as_ivec2(), at))
     }
 
-    /// The sample at a place of the finer grid, which has [`FacetMap::fine`] columns and rows for each texel. Nothing is outside the map.
+    /// The plane of a texel that is not refined.
     #[inline(always)]
-    pub fn sample(&self, at: IVec2) -> FacetSample {
-        let fine = self.fine as i32;
-        let texel = IVec2::new(at.x.div_euclid(fine), at.y.div_euclid(fine));
-        let nothing = FacetSample { plane: tile::NOTHING, side: 1.0 };
-        let Some((tile, origin, within)) = self.tile(texel) else { return nothing };
-        let place = at - texel * fine;
-        let sample = (place.y * fine + place.x) as usize;
-        if let Some(plane) = tile.sample(origin, within, sample, (fine * fine) as usize) {
-            return FacetSample { plane, side: 1.0 / f64::from(fine) };
-        }
-        let plane = match tile.plane(origin, within) {
+    fn plane(&self, tile: &FacetTile, texel: IVec2, origin: IVec2, within: UVec2) -> Affine {
+        match tile.plane(origin, within) {
             tile::Stored::Plane(plane) => plane,
             tile::Stored::Depth(depth) => Affine::constant(self.key(texel, depth)),
-        };
-        FacetSample { plane, side: 1.0 }
-    }
-
-    /// Calls `each` with all samples of a rectangle of the finer grid and where they were taken, texels: once for a texel that is not refined,
-    /// at its centre. Stops when it returns false.
-    #[inline(always)]
-    pub fn each_sample(&self, rect: TexelRect, mut each: impl FnMut(DVec2, &FacetSample) -> bool) {
-        let fine = self.fine as i32;
-        let texel_of = |at: IVec2| IVec2::new(at.x.div_euclid(fine), at.y.div_euclid(fine));
-        let (from, to) = (texel_of(rect.min), texel_of(rect.max - 1));
-        let nothing = FacetSample { plane: tile::NOTHING, side: 1.0 };
-        for y in from.y..=to.y {
-            for x in from.x..=to.x {
-                let texel = IVec2::new(x, y);
-                let centre = texel.as_dvec2() + 0.5;
-                let Some((tile, origin, within)) = self.tile(texel) else {
-                    if !each(centre, &nothing) {
-                        return;
-                    }
-                    continue;
-                };
-                if tile.is_refined(within) {
-                    let first = texel * fine;
-                    let part = TexelRect::new(first, first + fine).intersect(rect);
-                    for at in part.texels() {
-                        let sample = self.sample(at);
-                        if !each((at.as_dvec2() + 0.5) / f64::from(fine), &sample) {
-                            return;
-                        }
-                    }
-                    continue;
-                }
-                let plane = match tile.plane(origin, within) {
-                    tile::Stored::Plane(plane) => plane,
-                    tile::Stored::Depth(depth) => Affine::constant(self.key(texel, depth)),
-                };
-                if !each(centre, &FacetSample { plane, side: 1.0 }) {
-                    return;
-                }
-            }
         }
-    }
-
-    /// Where the first surface changes on the way from a sample of the finer grid to its neighbour to the right, or downward: 0 at the
-    /// sample, 1 at the neighbour. `None` where no link is kept: their planes meet, or neither is in a refined texel.
-    #[inline(always)]
-    pub fn link(&self, at: IVec2, down: bool) -> Option<f64> {
-        let fine = self.fine as i32;
-        let texel = IVec2::new(at.x.div_euclid(fine), at.y.div_euclid(fine));
-        let (tile, _, within) = self.tile(texel)?;
-        let place = at - texel * fine;
-        let link = 2 * (place.y * fine + place.x) as usize + usize::from(down);
-        let slots = tile.link(within, link, (fine * fine) as usize)?;
-        Some(f64::from(slots) / f64::from(self.slots))
     }
 
     /// The key of a stored depth.
@@ -181,5 +106,68 @@ impl FacetMap {
         }
         let at: DVec2 = self.depths.view.sampling().position(texel);
         self.depths.view.key(self.depths.decode.zeta_of_depth(depth, at))
+    }
+}
+
+impl FacetSource for FacetMap {
+    #[inline(always)]
+    fn fine(&self) -> u32 {
+        self.fine
+    }
+
+    /// Nothing is outside the map.
+    #[inline(always)]
+    fn sample(&self, at: IVec2) -> FacetSample {
+        let fine = self.fine as i32;
+        let texel = IVec2::new(at.x.div_euclid(fine), at.y.div_euclid(fine));
+        let centre = texel.as_dvec2() + 0.5;
+        let Some((tile, origin, within)) = self.tile(texel) else { return FacetSample::nothing(centre) };
+        let place = at - texel * fine;
+        let sample = (place.y * fine + place.x) as usize;
+        if let Some(plane) = tile.sample(origin, within, sample, (fine * fine) as usize) {
+            let side = 1.0 / f64::from(fine);
+            return FacetSample { plane, at: (at.as_dvec2() + 0.5) * side, side };
+        }
+        FacetSample { plane: self.plane(tile, texel, origin, within), at: centre, side: 1.0 }
+    }
+
+    /// Once for a texel that is not refined.
+    #[inline(always)]
+    fn each_sample(&self, rect: TexelRect, each: &mut dyn FnMut(&FacetSample) -> bool) {
+        let fine = self.fine as i32;
+        let texel_of = |at: IVec2| IVec2::new(at.x.div_euclid(fine), at.y.div_euclid(fine));
+        let (from, to) = (texel_of(rect.min), texel_of(rect.max - 1));
+        for y in from.y..=to.y {
+            for x in from.x..=to.x {
+                let texel = IVec2::new(x, y);
+                let centre = texel.as_dvec2() + 0.5;
+                let goes_on = match self.tile(texel) {
+                    None => each(&FacetSample::nothing(centre)),
+                    Some((tile, _, within)) if tile.is_refined(within) => {
+                        let first = texel * fine;
+                        let part = TexelRect::new(first, first + fine).intersect(rect);
+                        part.texels().all(|at| each(&self.sample(at)))
+                    }
+                    Some((tile, origin, within)) => {
+                        let plane = self.plane(tile, texel, origin, within);
+                        each(&FacetSample { plane, at: centre, side: 1.0 })
+                    }
+                };
+                if !goes_on {
+                    return;
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn link(&self, at: IVec2, down: bool) -> Option<f64> {
+        let fine = self.fine as i32;
+        let texel = IVec2::new(at.x.div_euclid(fine), at.y.div_euclid(fine));
+        let (tile, _, within) = self.tile(texel)?;
+        let place = at - texel * fine;
+        let link = 2 * (place.y * fine + place.x) as usize + usize::from(down);
+        let slots = tile.link(within, link, (fine * fine) as usize)?;
+        Some(f64::from(slots) / f64::from(self.slots))
     }
 }

@@ -3,12 +3,12 @@
 use crate::query::answer;
 use crate::{Filter, OnPlane, Probe, Query};
 use fearless_simd::Simd;
-use glam::{DVec2, IVec2};
-use umbrage_depth::{DepthMap, FacetMap, FacetSample};
+use glam::{DVec2, IVec2, Vec2};
+use umbrage_depth::{DepthMap, FacetSample, FacetSource, Facets};
 use umbrage_plane::{Affine, TexelRect, View};
 use umbrage_sample::EveryTexel;
 
-/// Shadow without a bias over a map of facets ([`FacetMap`]): the receiver's tangent plane is compared with the caster's own plane, and edges run
+/// Shadow without a bias over a map of facets ([`FacetMap`](umbrage_depth::FacetMap)): the receiver's tangent plane is compared with the caster's own plane, and edges run
 /// between the samples of a texel, not along its border.
 ///
 /// A sample of the map calls a place of the receiver dark when the receiver's plane lies behind the sample's **both** at the sample's centre and at
@@ -49,19 +49,39 @@ umbrage_plane::builders!([] DualPlane {
 impl Filter for DualPlane {
     #[inline(always)]
     fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32 {
-        let Some(map) = query.map().facets() else {
-            let region = query.region(1.0, 1.0);
-            return query.share(&region, &EveryTexel, &OnPlane::default());
+        if query.receiver().axes == [Vec2::ZERO; 2]
+            && let Some(dark) = query.placed(query.receiver().texel.as_vec2())
+        {
+            return dark;
+        }
+        let (fraction, looked) = match query.map().facets() {
+            Some(Facets::Map(map)) => Asked::new(self, map, query).fraction(),
+            Some(Facets::Several(maps)) => self.over_several(maps, query),
+            None => {
+                let region = query.region(1.0, 1.0);
+                return query.share(&region, &EveryTexel, &OnPlane::default());
+            }
         };
-        let (fraction, looked) = Asked::new(self, map, query).fraction();
         query.count(looked);
         fraction
     }
 }
 
-/// A receiver asked of a map of facets.
-struct Asked<'a> {
-    map: &'a FacetMap,
+impl DualPlane {
+    /// Maps around a light, whose samples beyond a seam are brought over from the neighbour.
+    #[inline(never)]
+    fn over_several<'a, S: Simd, M: DepthMap, P: Probe>(
+        &self,
+        maps: &'a dyn FacetSource,
+        query: &Query<'a, S, M, P>,
+    ) -> (f32, u32) {
+        Asked::new(self, maps, query).fraction()
+    }
+}
+
+/// A receiver asked of what knows facets.
+struct Asked<'a, F: ?Sized> {
+    map: &'a F,
     view: &'a View,
     /// The receiver's tangent plane, and how fast its key changes, over both axes together.
     plane: Affine,
@@ -105,16 +125,16 @@ impl Voter {
 const AT_HAND: i32 = 9;
 
 /// The samples under a region.
-struct Grid<'a, 'b> {
-    asked: &'b Asked<'a>,
+struct Grid<'a, 'b, F: ?Sized> {
+    asked: &'b Asked<'a, F>,
     /// The finer grid's column and row of the first, and columns.
     rect: TexelRect,
     voters: [Voter; (AT_HAND * AT_HAND) as usize],
 }
 
-impl<'a> Asked<'a> {
+impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
     #[inline(always)]
-    fn new<S: Simd, M: DepthMap, P: Probe>(filter: &DualPlane, map: &'a FacetMap, query: &Query<'a, S, M, P>) -> Self {
+    fn new<S: Simd, M: DepthMap, P: Probe>(filter: &DualPlane, map: &'a F, query: &Query<'a, S, M, P>) -> Self {
         let (view, receiver) = (query.view(), query.receiver());
         let zeta = -receiver.eye.z;
         let plane = view.affine(receiver.eye, receiver.normal).unwrap_or_else(|| Affine::constant(view.key(zeta)));
@@ -162,9 +182,9 @@ impl<'a> Asked<'a> {
     #[inline(always)]
     fn agreed(&self, rect: TexelRect) -> (Option<bool>, u32) {
         let (mut lit, mut dark, mut looked) = (true, true, 0);
-        self.map.each_sample(rect, |at, sample| {
+        self.map.each_sample(rect, &mut |sample| {
             looked += 1;
-            let voter = self.voter(at, sample);
+            let voter = self.voter(sample);
             let middle = voter.behind.at(self.texel);
             let along = |axis: DVec2| (voter.behind.dx * axis.x + voter.behind.dy * axis.y).abs();
             // A little more than the region, so that no rounding decides.
@@ -177,7 +197,7 @@ impl<'a> Asked<'a> {
     }
 
     #[inline(always)]
-    fn voter(&self, at: DVec2, sample: &FacetSample) -> Voter {
+    fn voter(&self, sample: &FacetSample) -> Voter {
         let plane = &sample.plane;
         if plane.c == f64::INFINITY {
             return Voter::NOTHING;
@@ -188,14 +208,7 @@ impl<'a> Asked<'a> {
         let passed = rounding + (self.width + self.slope * gentle) * sample.side.max(self.least);
         let behind =
             Affine { c: self.plane.c - plane.c - passed, dx: self.plane.dx - plane.dx, dy: self.plane.dy - plane.dy };
-        Voter { behind, there: behind.at(at), passed }
-    }
-
-    /// Where a sample of the finer grid was taken, texels: a texel that is not refined at its own centre.
-    #[inline(always)]
-    fn taken(&self, at: IVec2, sample: &FacetSample) -> DVec2 {
-        let place = (at.as_dvec2() + 0.5) / f64::from(self.map.fine());
-        if sample.side < 1.0 { place } else { place.floor() + 0.5 }
+        Voter { behind, there: behind.at(sample.at), passed }
     }
 
     /// The places of the region, and the answer of each that the view's rules settle.
@@ -226,12 +239,11 @@ impl<'a> Asked<'a> {
     }
 }
 
-impl<'a, 'b> Grid<'a, 'b> {
-    fn new(asked: &'b Asked<'a>, rect: TexelRect) -> Self {
+impl<'a, 'b, F: FacetSource + ?Sized> Grid<'a, 'b, F> {
+    fn new(asked: &'b Asked<'a, F>, rect: TexelRect) -> Self {
         let mut voters = [Voter::NOTHING; (AT_HAND * AT_HAND) as usize];
         for (at, voter) in rect.texels().zip(&mut voters) {
-            let sample = asked.map.sample(at);
-            *voter = asked.voter(asked.taken(at, &sample), &sample);
+            *voter = asked.voter(&asked.map.sample(at));
         }
         Self { asked, rect, voters }
     }

@@ -5,7 +5,7 @@ use crate::{Filter, Query};
 use fearless_simd::Simd;
 use glam::{DVec2, DVec3, IVec2, Vec3};
 use std::borrow::Cow;
-use umbrage_depth::{DepthMap, Step, Translucent};
+use umbrage_depth::{DepthMap, FacetSample, FacetSource, Facets, Step, Translucent};
 use umbrage_plane::{DepthRange, Kind, Place, SurfacePoint, TexelRect, View, vectorized};
 use umbrage_sample::Key;
 
@@ -212,6 +212,11 @@ impl<M: DepthMap> DepthMap for Face<'_, M> {
         self.maps[self.own].translucent().map(|_| self as &dyn Translucent)
     }
 
+    /// Where the own view's map has some.
+    fn facets(&self) -> Option<Facets<'_>> {
+        self.maps[self.own].facets().map(|_| Facets::Several(self))
+    }
+
     #[inline(always)]
     fn range(&self, rect: TexelRect) -> DepthRange {
         let inside = TexelRect::of_size(self.view().size()).encloses(rect);
@@ -224,6 +229,53 @@ impl<M: DepthMap> DepthMap for Face<'_, M> {
 
     fn allocated(&self) -> usize {
         self.maps[self.own].allocated()
+    }
+}
+
+/// What a map of facets knows at a place of its finer grid.
+fn facet_sample(map: &impl DepthMap, at: IVec2) -> Option<FacetSample> {
+    match map.facets()? {
+        Facets::Map(map) => Some(map.sample(at)),
+        Facets::Several(maps) => Some(maps.sample(at)),
+    }
+}
+
+impl<M: DepthMap> FacetSource for Face<'_, M> {
+    fn fine(&self) -> u32 {
+        match self.maps[self.own].facets() {
+            Some(Facets::Map(map)) => map.fine(),
+            Some(Facets::Several(maps)) => maps.fine(),
+            None => 1,
+        }
+    }
+
+    /// Beyond the own view's map, the neighbour's sample in that direction: its facet's plane as this view sees it.
+    fn sample(&self, at: IVec2) -> FacetSample {
+        let (view, fine) = (self.view(), f64::from(self.fine()));
+        let place = (at.as_dvec2() + 0.5) / fine;
+        let nothing = FacetSample::nothing(place);
+        if self.inside(place.floor().as_ivec2()) {
+            return facet_sample(&self.maps[self.own], at).unwrap_or(nothing);
+        }
+        let direction = view.world_at(place, view.key(1.0)) - view.light().truncate();
+        let other = &self.maps[nearest(self.maps, direction)];
+        let there = other.view();
+        let seen = there.eye_to_texel(there.world_to_eye().transform_vector3(direction));
+        let Some(sample) = facet_sample(other, (seen * fine).floor().as_ivec2()) else { return nothing };
+        if sample.plane.c == f64::INFINITY {
+            return nothing;
+        }
+        let taken = there.world_at(sample.at, there.key(1.0));
+        let taken = view.world_to_eye().transform_point3(taken);
+        let Some(plane) = view.affine_of(there, &sample.plane).filter(|_| taken.z < 0.0) else { return nothing };
+        FacetSample { plane, at: view.eye_to_texel(taken), ..sample }
+    }
+
+    fn link(&self, at: IVec2, down: bool) -> Option<f64> {
+        match self.maps[self.own].facets()? {
+            Facets::Map(map) => map.link(at, down),
+            Facets::Several(maps) => maps.link(at, down),
+        }
     }
 }
 

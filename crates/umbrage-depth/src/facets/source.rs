@@ -1,0 +1,62 @@
+use super::FacetMap;
+use glam::{DVec2, IVec2};
+use umbrage_plane::{Affine, TexelRect};
+
+/// A sample of a facet map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FacetSample {
+    /// Its facet's plane, over texels of the map; a key of +∞ everywhere where there is none.
+    pub plane: Affine,
+    /// Where it was taken, texels: a texel that is not refined at its centre.
+    pub at: DVec2,
+    /// The side of what it stands for, texels: 1, or 1/fine in a refined texel.
+    pub side: f64,
+}
+
+impl FacetSample {
+    /// No facet, as seen from a place.
+    pub const fn nothing(at: DVec2) -> Self {
+        Self { plane: Affine::constant(f64::INFINITY), at, side: 1.0 }
+    }
+}
+
+/// Whatever knows facets: a map, or several of them around a light.
+pub trait FacetSource {
+    /// Samples along a refined texel's side: the finer grid has so many columns and rows for each texel.
+    fn fine(&self) -> u32;
+
+    /// The sample at a place of the finer grid.
+    fn sample(&self, at: IVec2) -> FacetSample;
+
+    /// Calls `each` with all samples of a rectangle of the finer grid, one that several places share perhaps once. Stops when it returns
+    /// false.
+    fn each_sample(&self, rect: TexelRect, each: &mut dyn FnMut(&FacetSample) -> bool) {
+        for at in rect.texels() {
+            if !each(&self.sample(at)) {
+                return;
+            }
+        }
+    }
+
+    /// Where the first surface changes on the way from a sample of the finer grid to its neighbour to the right, or downward: 0 at the
+    /// sample, 1 at the neighbour. `None` where that is not known: their planes meet, or the sample is of no refined texel.
+    fn link(&self, at: IVec2, down: bool) -> Option<f64>;
+}
+
+/// What a map knows of facets.
+#[derive(Clone, Copy)]
+pub enum Facets<'a> {
+    /// It is a map of facets.
+    Map(&'a FacetMap),
+    /// It stands for several.
+    Several(&'a dyn FacetSource),
+}
+
+impl std::fmt::Debug for Facets<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Map(_) => "Map",
+            Self::Several(_) => "Several",
+        })
+    }
+}

@@ -1,0 +1,199 @@
+//! The default over maps of facets: right at contacts, at tile and face borders and by the rules, and the same bits however it is asked.
+
+use glam::{DVec3, UVec2, Vec3};
+use umbrage_bake::{Refinement, bake_refined};
+use umbrage_depth::{Map, Storage};
+use umbrage_oracle::{Body, Face, Geometry, RayCast};
+use umbrage_plane::{Kind, Rules, SurfacePoint, View, cube_views};
+use umbrage_raster::Triangle;
+use umbrage_recipe::Recipe;
+use umbrage_sample::Key;
+use umbrage_shadow::{Around, DualPlane, Shadow};
+use umbrage_tests::laws::Subject;
+
+const KEY: Key = Key::new(5, 0, 0);
+
+/// A closed box.
+fn cuboid(low: DVec3, high: DVec3, object: u32) -> Vec<Triangle> {
+    let corner = |index: usize| {
+        DVec3::from_array(std::array::from_fn(|axis| if index >> axis & 1 == 1 { high[axis] } else { low[axis] }))
+    };
+    let faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let face = |[a, b, c, d]: [usize; 4]| {
+        let [a, b, c, d] = [a, b, c, d].map(corner);
+        [[a, b, c], [a, c, d]].map(|corners| Triangle { corners, object, sheet: false })
+    };
+    faces.into_iter().flat_map(face).collect()
+}
+
+fn truth(triangles: &[Triangle], objects: usize) -> Geometry {
+    let face = |triangle: &Triangle| Face {
+        corners: triangle.corners.map(|corner| corner.as_vec3()),
+        object: triangle.object,
+    };
+    let body = Body { casts: true, solid: true, passes: Vec3::ZERO };
+    Geometry::from_faces(triangles.iter().map(face).collect(), vec![body; objects])
+}
+
+/// Random points of the sides of axis-parallel boxes that are not inside another one, with a square region of half-width `half` about each.
+fn points(boxes: &[(DVec3, DVec3)], count: u32, half: f64) -> Vec<SurfacePoint> {
+    let point = |region: u32| {
+        let (low, high) = boxes[region as usize % boxes.len()];
+        let unit = |dimension| f64::from(KEY.unit(region, dimension));
+        let side = (unit(0) * 6.0) as usize;
+        let (axis, up) = (side / 2, side % 2 == 1);
+        let mut at = low + (high - low) * DVec3::new(unit(1), unit(2), unit(3));
+        at[axis] = if up { high[axis] } else { low[axis] };
+        let normal = DVec3::AXES[axis] * if up { 1.0 } else { -1.0 };
+        let (a, b) = (DVec3::AXES[(axis + 1) % 3] * half, DVec3::AXES[(axis + 2) % 3] * half);
+        let corners = [at - a - b, at + a - b, at + a + b, at - a + b];
+        SurfacePoint { region, object: region % boxes.len() as u32, ..SurfacePoint::at(at, normal.as_vec3()) }
+            .with_corners(corners)
+    };
+    let hidden = |point: &SurfacePoint| {
+        let others = boxes.iter().enumerate().filter(|(index, _)| *index != point.object as usize);
+        others.into_iter().any(|(_, (low, high))| point.position.cmpgt(*low).all() && point.position.cmplt(*high).all())
+    };
+    (0..count).map(point).filter(|point| !hidden(point)).collect()
+}
+
+/// Points that face the light and whose answer is wrong by more than half where truth is one all around, by `margin`; and how many were judged.
+fn wrong(ray: &RayCast<'_>, shadow: &dyn Shadow, light: DVec3, points: &[SurfacePoint], margin: f64) -> (usize, usize) {
+    let mut found = vec![0.0; points.len()];
+    shadow.fractions(points, KEY, &mut found);
+    let (mut wrong, mut judged) = (0, 0);
+    for (point, found) in points.iter().zip(found) {
+        let facing = point.normal.as_dvec3().dot((light - point.position).normalize());
+        let right = ray.at(point);
+        let around = DVec3::AXES.iter().flat_map(|axis| [1.0, -1.0].map(|sign| *axis * sign * margin));
+        let along = around.filter(|by| by.dot(point.normal.as_dvec3()) == 0.0);
+        let mut same = along.map(|by| ray.at(&SurfacePoint { position: point.position + by, ..*point }) == right);
+        if facing > 0.02 && same.all(|same| same) {
+            judged += 1;
+            wrong += usize::from((found - right).abs() > 0.5);
+        }
+    }
+    (wrong, judged)
+}
+
+/// Boxes on a floor, touching it and each other, over many tiles of the map.
+fn town() -> Vec<(DVec3, DVec3)> {
+    let mut boxes = vec![(DVec3::new(-12.0, -1.0, -12.0), DVec3::new(12.0, 0.0, 12.0))];
+    for i in 0..30u32 {
+        let unit = |dimension| f64::from(KEY.unit(1000 + i, dimension));
+        let low = DVec3::new(unit(0) * 18.0 - 10.0, 0.0, unit(1) * 18.0 - 10.0);
+        boxes.push((low, low + DVec3::new(0.2 + unit(2) * 1.5, 0.3 + unit(3) * 3.0, 0.2 + unit(4) * 1.5)));
+    }
+    boxes
+}
+
+fn soup(boxes: &[(DVec3, DVec3)]) -> Vec<Triangle> {
+    boxes.iter().zip(0..).flat_map(|((low, high), object)| cuboid(*low, *high, object)).collect()
+}
+
+#[test]
+fn nothing_is_detached_or_leaks_at_contacts_in_any_kind_of_view() {
+    let boxes = town();
+    let triangles = soup(&boxes);
+    let geometry = truth(&triangles, boxes.len());
+    let size = UVec2::splat(512);
+    let eye = DVec3::new(9.0, 14.0, 5.0);
+    let spot = View::perspective(eye, DVec3::ZERO, DVec3::Z, 1.6, 2.0, 60.0, size).unwrap();
+    let sun = View::orthographic(eye, DVec3::ZERO, DVec3::Z, 17.0, -20.0, 60.0, size).unwrap();
+    for kind in [Kind::Axial, Kind::Radial, Kind::Screen] {
+        for view in [spot, sun] {
+            let view = view.with_kind(kind);
+            let recipe: Recipe = "auto".parse().unwrap();
+            let shadow = recipe.bind(recipe.bake(&view, triangles.iter().copied()), Storage::Tiled).unwrap();
+            let ray = RayCast::new(&geometry, &view);
+            let light = if view.is_perspective() { eye } else { eye * 1e6 };
+            for half in [0.0, 0.02] {
+                // A texel is about .06 wide.
+                let (wrong, judged) = wrong(&ray, &*shadow, light, &points(&boxes, 20_000, half), 0.05);
+                assert!(judged > 6000 && wrong * 2000 <= judged, "{wrong} of {judged}, {kind:?}, {half}");
+            }
+        }
+    }
+}
+
+/// A lamp among boxes in a room: its six maps answer as one, at the seams too.
+#[test]
+fn the_six_maps_of_a_lamp_are_one_light() {
+    let mut boxes = Vec::new();
+    for axis in DVec3::AXES {
+        for side in [-1.0, 1.0] {
+            let middle = axis * side * 10.5;
+            let half = DVec3::splat(10.0) - axis * 9.5;
+            boxes.push((middle - half, middle + half));
+        }
+    }
+    for i in 0..40u32 {
+        let unit = |dimension| f64::from(KEY.signed(2000 + i, dimension));
+        let way = DVec3::new(unit(0), unit(1), unit(2)).normalize();
+        let (middle, half) = (way * (3.0 + 3.0 * unit(3).abs()), 0.25 + 0.4 * unit(4).abs());
+        boxes.push((middle - half, middle + half));
+    }
+    let triangles = soup(&boxes);
+    let geometry = truth(&triangles, boxes.len());
+    let ray = RayCast::everywhere(&geometry, DVec3::ZERO.extend(1.0));
+    let views = cube_views(DVec3::ZERO, 0.1, 40.0, 512).unwrap();
+    let maps = views.map(|view| bake_refined(&view, triangles.iter().copied(), &Refinement::default()).map);
+    let lamp = Around::new(DualPlane::default(), maps.to_vec()).unwrap();
+    for half in [0.0, 0.04] {
+        let all = points(&boxes, 30_000, half);
+        let (few, judged) = wrong(&ray, &lamp, DVec3::ZERO, &all, 0.08);
+        assert!(judged > 8000 && few * 2000 <= judged, "{few} of {judged}, {half}");
+        // Within a texel or so of the seams between faces.
+        let at_seam = |point: &&SurfacePoint| {
+            let mut sides = point.position.abs().to_array();
+            sides.sort_by(f64::total_cmp);
+            sides[1] > 0.985 * sides[2]
+        };
+        let seams: Vec<SurfacePoint> = points(&boxes, 400_000, half).iter().filter(at_seam).copied().collect();
+        let (few, judged) = wrong(&ray, &lamp, DVec3::ZERO, &seams, 0.08);
+        assert!(judged > 500 && few * 400 <= judged, "{few} of {judged} at seams, {half}");
+    }
+}
+
+#[test]
+fn the_same_bits_one_by_one_together_and_without_wide_instructions() {
+    let boxes = town();
+    let view = View::perspective(DVec3::new(9.0, 14.0, 5.0), DVec3::ZERO, DVec3::Z, 1.6, 2.0, 60.0, UVec2::splat(256));
+    let view = view.unwrap().with_rules(Rules::SPOT).with_cone(Some(0.8)).unwrap();
+    let recipe: Recipe = "auto".parse().unwrap();
+    let map: Map = recipe.bake(&view, soup(&boxes));
+    let subject = Subject::new("auto", DualPlane::default());
+    let shadow = subject.over(&map);
+    for half in [0.0, 0.05, 0.9] {
+        let points = points(&boxes, 3000, half);
+        let mut together = vec![0.0; points.len()];
+        let counters = subject.counted(&map, &points, &mut together);
+        assert!(half > 0.0 || counters.placed > 0, "some lie outside the cone");
+        for (point, fraction) in points.iter().zip(&together) {
+            assert!((0.0..=1.0).contains(fraction));
+            assert_eq!(shadow.fraction(point, KEY).to_bits(), fraction.to_bits());
+            let key = KEY.region(point.region);
+            if let Ok(receiver) = view.receiver(point) {
+                assert_eq!(subject.of_baseline(&map, &receiver, key).to_bits(), fraction.to_bits());
+            }
+        }
+    }
+}
+
+#[test]
+fn rules_are_asked_at_each_place_of_a_region() {
+    // A region across the border of an empty map: half of it outside, where all is dark.
+    let view = View::orthographic(DVec3::Y * 9.0, DVec3::ZERO, DVec3::Z, 4.0, 1.0, 20.0, UVec2::splat(64)).unwrap();
+    let recipe: Recipe = "auto".parse().unwrap();
+    let floor = cuboid(DVec3::new(-9.0, -1.0, -9.0), DVec3::new(9.0, 0.0, 9.0), 0);
+    for (rules, wanted) in [(Rules::SPOT, 0.5), (Rules::OPEN, 0.0)] {
+        let view = view.with_rules(rules);
+        let shadow = recipe.bind(recipe.bake(&view, floor.iter().copied()), Storage::Raw).unwrap();
+        let corner = |x: f64, z: f64| DVec3::new(4.0 + x * 0.3, 0.0, z * 0.3);
+        let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+        let across = SurfacePoint::at(DVec3::X * 4.0, Vec3::Y).with_corners(corners);
+        assert_eq!(shadow.fraction(&across, KEY), wanted, "{rules:?}");
+        let far = SurfacePoint::at(DVec3::X * 7.0, Vec3::Y);
+        assert_eq!(shadow.fraction(&far, KEY), 2.0 * wanted, "{rules:?}");
+    }
+}
