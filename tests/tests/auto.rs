@@ -28,7 +28,7 @@ fn cuboid(low: DVec3, high: DVec3, object: u32) -> Vec<Triangle> {
 
 fn truth(triangles: &[Triangle], objects: usize) -> Geometry {
     let face = |triangle: &Triangle| Face {
-        corners: triangle.corners.map(|corner| corner.as_vec3()),
+        corners: triangle.corners.map(|DVec3 { x, y, z }| Vec3::new(x as f32, y as f32, z as f32)),
         object: triangle.object,
     };
     let body = Body { casts: true, solid: true, passes: Vec3::ZERO };

@@ -1,4 +1,3 @@
-use super::FacetMap;
 use glam::{DVec2, IVec2};
 use umbrage_plane::{Affine, TexelRect};
 
@@ -41,22 +40,4 @@ pub trait FacetSource {
     /// Where the first surface changes on the way from a sample of the finer grid to its neighbour to the right, or downward: 0 at the
     /// sample, 1 at the neighbour. `None` where that is not known: their planes meet, or the sample is of no refined texel.
     fn link(&self, at: IVec2, down: bool) -> Option<f64>;
-}
-
-/// What a map knows of facets.
-#[derive(Clone, Copy)]
-pub enum Facets<'a> {
-    /// It is a map of facets.
-    Map(&'a FacetMap),
-    /// It stands for several.
-    Several(&'a dyn FacetSource),
-}
-
-impl std::fmt::Debug for Facets<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Map(_) => "Map",
-            Self::Several(_) => "Several",
-        })
-    }
 }
