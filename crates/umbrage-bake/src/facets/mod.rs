@@ -73,7 +73,7 @@ pub fn bake_facets<R: FacetRule>(
 /// [`DualPlane`]: https://docs.rs/umbrage-shadow
 ///
 /// # Panics
-/// When `fine` is not 2, 4 or 8, or `slots` is odd, 0 or more than 64/`fine`.
+/// When `fine` is not 2, 4 or 8, or `slots` is no power of two from 2 to 64/`fine`.
 pub fn bake_refined(
     view: &View,
     triangles: impl IntoIterator<Item = Triangle>,
@@ -81,7 +81,7 @@ pub fn bake_refined(
 ) -> BakedFacets {
     let Refinement { fine, slots, .. } = *refinement;
     assert!(matches!(fine, 2 | 4 | 8), "{fine} samples along a texel's side");
-    assert!(slots > 0 && slots.is_multiple_of(2) && slots * fine <= 64, "{slots} slots with {fine} samples");
+    assert!(slots > 1 && slots.is_power_of_two() && slots * fine <= 64, "{slots} slots with {fine} samples");
     let view = &view.with_sampling(Sampling::Centre);
     let bins = Bins::for_spans(view, TexelRect::of_size(view.size()), Cull::None, triangles);
     let depths = FacetDepths::of(view);

@@ -81,9 +81,11 @@ impl Nearest {
     }
 }
 
-/// The points of a grid with this step that lie in an interval: those at first + k·step, k from 0 to count.
-fn points(along: &Range<i32>, first: i32, step: i32, count: usize) -> Range<usize> {
-    let index = |at: i32| (at - first + step - 1).div_euclid(step).clamp(0, count as i32) as usize;
+/// The points of a grid that lie in an interval: those at first + k·2^`shift`, k from 0 to count.
+#[inline(always)]
+fn points(along: &Range<i32>, first: i32, shift: u32, count: usize) -> Range<usize> {
+    // Shifts round down, below 0 too.
+    let index = |at: i32| ((at - first + (1 << shift) - 1) >> shift).clamp(0, count as i32) as usize;
     index(along.start)..index(along.end)
 }
 
@@ -172,8 +174,11 @@ impl Part<'_> {
             let on_map = |sample: &usize| place(*sample).cmplt(map.as_dvec2()).all();
             let own = facets[texel];
             let mut width = None;
-            let mut agrees = |sample| surface.agree(own, samples.facets[sample], place(sample), &mut width);
-            if grid(fine + 1).filter(on_map).all(&mut agrees) {
+            let mut agrees = |sample: usize| {
+                let seen = samples.facets[sample];
+                seen == own || !on_map(&sample) || surface.agree(own, seen, place(sample), &mut width)
+            };
+            if grid(fine + 1).all(&mut agrees) {
                 continue;
             }
             let samples = grid(fine).map(|sample| samples.facets[sample]).collect();
@@ -190,11 +195,11 @@ impl Part<'_> {
 /// The nearest facets at the points of a region's grid, `side` points a side. Planes that are nearest somewhere are added to `planes`.
 fn nearest(bins: &Bins, region: TexelRect, step: i32, side: usize, planes: &mut Planes) -> Nearest {
     let mut nearest = Nearest::new(side);
-    let first = region.min + step / 2;
+    let (first, shift) = (region.min + step / 2, step.ilog2());
     // Spans come facet by facet.
     let mut last = (u32::MAX, 0);
     bins.spans(region, Lines::Rows, step, |facet, y, along| {
-        let points = points(&along, first.x, step, side);
+        let points = points(&along, first.x, shift, side);
         if points.is_empty() {
             return;
         }
@@ -204,7 +209,7 @@ fn nearest(bins: &Bins, region: TexelRect, step: i32, side: usize, planes: &mut 
         let index = last.1;
         let key = facet.plane.at(texels(IVec2::new(first.x, y)));
         let dx = facet.plane.dx * (f64::from(step) / f64::from(SUBTEXELS));
-        let row = ((y - first.y) / step) as usize;
+        let row = ((y - first.y) >> shift) as usize;
         if nearest.offer(row, points, key, dx, index) {
             planes.add(facet, index);
         }
@@ -302,28 +307,42 @@ impl Links<'_> {
         for line in &mut links {
             line.sort_unstable_by_key(|link| along(link.sample));
         }
+        // By line and sample: the first link that begins there or later.
+        let mut later = vec![0_u16; side * (side + 1)];
+        for (line, later) in links.iter().zip(later.chunks_exact_mut(side + 1)) {
+            let mut next = 0;
+            for (sample, later) in later.iter_mut().enumerate() {
+                next += line[next..].iter().take_while(|link| along(link.sample) < sample).count();
+                *later = next as u16;
+            }
+        }
         let slots = self.slots as usize;
         let mut seen: Vec<Vec<f64>> = links.iter().map(|line| vec![f64::INFINITY; line.len() * slots]).collect();
         let min = if lines == Lines::Rows { self.region.min } else { IVec2::new(self.region.min.y, self.region.min.x) };
         let (first, gap) = (min + self.step / 2, self.step / self.slots);
+        let (step, shift) = (self.step.ilog2(), gap.ilog2());
         self.bins.spans(self.region, lines, self.step, |facet, across, span| {
-            let line = ((across - first.y) / self.step) as usize;
+            let line = ((across - first.y) >> step) as usize;
             if links[line].is_empty() {
                 return;
             }
             // Links whose end lies behind the span's start, as far as they begin before its end.
-            let from =
-                links[line].partition_point(|link| first.x + self.step * (along(link.sample) as i32 + 1) <= span.start);
+            let sample = ((span.start - first.x) >> step).max(0) as usize;
+            let from = usize::from(later[line * (side + 1) + sample.min(side)]);
             for (link, keys) in links[line].iter().zip(seen[line].chunks_exact_mut(slots)).skip(from) {
                 let begin = first.x + self.step * along(link.sample) as i32;
                 if begin >= span.end {
                     break;
                 }
-                let slot = |index: i32| begin + gap / 2 + gap * index;
-                for index in points(&span, slot(0), gap, slots) {
-                    let at = slot(index as i32);
-                    let at = if lines == Lines::Rows { IVec2::new(at, across) } else { IVec2::new(across, at) };
-                    keys[index] = keys[index].min(facet.plane.at(texels(at)));
+                let start = begin + gap / 2;
+                let at = |at: i32| {
+                    texels(if lines == Lines::Rows { IVec2::new(at, across) } else { IVec2::new(across, at) })
+                };
+                let key = facet.plane.at(at(start));
+                let change = facet.plane.at(at(start + gap)) - key;
+                let slots = points(&span, start, shift, slots);
+                for (nearest, index) in keys[slots.clone()].iter_mut().zip(slots) {
+                    *nearest = nearest.min(key + change * index as f64);
                 }
             }
         });

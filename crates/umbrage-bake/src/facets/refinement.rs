@@ -4,7 +4,7 @@
 pub struct Refinement {
     /// Samples along a refined texel's side: 2, 4 or 8.
     pub fine: u32,
-    /// Slots of a link between two samples, even: 2 to 64/`fine`.
+    /// Slots of a link between two samples: a power of two from 2 to 64/`fine`. It is even, so that no slot lies on a third sample.
     pub slots: u32,
     /// How far a sample may lie off its texel's plane before the texel is refined, in widths of a texel there.
     pub tolerance: f64,
