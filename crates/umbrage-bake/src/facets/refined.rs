@@ -69,15 +69,16 @@ impl Nearest {
         let first = row * self.side;
         let keys = &mut self.keys[first + points.start..first + points.end];
         let facets = &mut self.facets[first + points.start..first + points.end];
-        let mut any = false;
-        for (i, (nearest, own)) in keys.iter_mut().zip(facets).enumerate() {
-            let key = key + dx * (points.start + i) as f64;
+        let mut any = 0;
+        // Signed 32-bit counters become floats several at a time.
+        for (i, (nearest, own)) in (points.start as i32..).zip(keys.iter_mut().zip(facets)) {
+            let key = key + dx * f64::from(i);
             let nearer = key < *nearest;
             *nearest = if nearer { key } else { *nearest };
             *own = if nearer { facet } else { *own };
-            any |= nearer;
+            any |= u32::from(nearer);
         }
-        any
+        any != 0
     }
 }
 
@@ -341,8 +342,9 @@ impl Links<'_> {
                 let key = facet.plane.at(at(start));
                 let change = facet.plane.at(at(start + gap)) - key;
                 let slots = points(&span, start, shift, slots);
-                for (nearest, index) in keys[slots.clone()].iter_mut().zip(slots) {
-                    *nearest = nearest.min(key + change * index as f64);
+                for (nearest, index) in keys[slots.clone()].iter_mut().zip(slots.start as i32..) {
+                    let key = key + change * f64::from(index);
+                    *nearest = if key < *nearest { key } else { *nearest };
                 }
             }
         });
