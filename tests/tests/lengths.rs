@@ -3,12 +3,12 @@
 use glam::{DVec3, DVec4, UVec2, Vec3};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use umbrage_depth::{DeepMap, Raw, Step, TagMap};
-use umbrage_oracle::{AreaLight, AreaRegion, Body, Face, Geometry, Mean, RayCast};
+use umbrage_oracle::{AreaLight, AreaRegion, Body, Face, Geometry, RayCast};
 use umbrage_plane::{SurfacePoint, View, cube_views};
 use umbrage_render::{Ground, Planar};
 use umbrage_sample::Key;
 use umbrage_scene::gallery;
-use umbrage_shadow::{Around, LatLong, Pcf, Shadow, Tags, Unshadowed, presets};
+use umbrage_shadow::{Around, LatLong, Mean, Pcf, Shadow, Tags, Unshadowed, presets};
 
 /// One of every kind, by name.
 fn every_shadow(geometry: &Geometry) -> Vec<(&'static str, Box<dyn Shadow + '_>)> {

@@ -1,7 +1,7 @@
 //! A view with one thing changed.
 
 use crate::{Kind, Projection, Rules, Sampling, TexelRect, View, ViewError};
-use glam::{DVec2, DVec3, UVec2};
+use glam::{DMat4, DQuat, DVec2, DVec3, UVec2};
 
 impl View {
     /// The same view whose map stores another kind of depth.
@@ -78,6 +78,46 @@ impl View {
         };
         let (near, far) = (self.near * factor, self.far * factor);
         Self::new(world_to_eye, projection, near, far, self.size).map(|view| view.alike(&self))
+    }
+
+    /// Views from `count` points of a disc in this light's place, spread evenly by area in the order of a sunflower's seeds (Vogel 1979): a light
+    /// of that size is their mean. `radius` is in world units, about the eye and square to the axis; of parallel light it is the tangent
+    /// of the disc's angle on the sky, and all views turn about the middle of the range on the axis.
+    ///
+    /// Perspective views keep the window at the far plane, so that each shows all that this one shows there. Nothing is dark only for being outside
+    /// of one of them: their rules are [`Rules::OPEN`] and they have no cone.
+    ///
+    /// # Errors
+    /// [`ViewError::Factor`] unless `radius` is finite and not negative; [`ViewError`] when a view ends at a place that is not finite.
+    pub fn over_disc(self, radius: f64, count: u32) -> Result<Vec<Self>, ViewError> {
+        const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
+        if !(radius.is_finite() && radius >= 0.0) {
+            return Err(ViewError::Factor(radius));
+        }
+        let at = |index: u32| {
+            let share = (f64::from(index) + 0.5) / f64::from(count);
+            DVec2::from_angle(GOLDEN_ANGLE * f64::from(index)) * (radius * share.sqrt())
+        };
+        (0..count).map(|index| self.at_offset(at(index))).collect()
+    }
+
+    /// The same light from another point of a disc.
+    fn at_offset(self, by: DVec2) -> Result<Self, ViewError> {
+        let (world_to_eye, projection) = match self.projection {
+            Projection::Perspective { k, shift } => {
+                let mut moved = self.world_to_eye;
+                moved.w_axis -= by.extend(0.0).extend(0.0);
+                (moved, Projection::Perspective { k, shift: shift + k * by / self.far })
+            }
+            Projection::Orthographic { .. } => {
+                let middle = DVec3::NEG_Z * (0.5 * (self.near + self.far));
+                let turn = DQuat::from_rotation_arc(by.extend(-1.0).normalize(), DVec3::NEG_Z);
+                let about = DMat4::from_translation(middle) * DMat4::from_quat(turn) * DMat4::from_translation(-middle);
+                (about * self.world_to_eye, self.projection)
+            }
+        };
+        let view = Self::new(world_to_eye, projection, self.near, self.far, self.size)?;
+        Ok(Self { rules: Rules::OPEN, cone: None, ..view.alike(&self) })
     }
 
     /// The part of the same view that a rectangle of its texels shows, with those texels as its map: what was at a texel

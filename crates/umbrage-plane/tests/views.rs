@@ -198,6 +198,48 @@ fn rays_are_the_inverse_of_projection() {
     assert!((seen.depth - 7.0).abs() < 1e-6);
 }
 
+#[test]
+fn points_of_a_light_see_what_its_centre_sees_at_the_far_plane() {
+    let spot = View::perspective(DVec3::new(1.0, 9.0, 2.0), DVec3::ZERO, DVec3::Z, 0.8, 2.0, 20.0, SIZE).unwrap();
+    let spot = spot.with_rules(Rules::SPOT).with_cone(Some(0.9)).unwrap().with_kind(Kind::Radial);
+    let sun = View::orthographic(DVec3::new(1.0, 9.0, 2.0), DVec3::ZERO, DVec3::Z, 5.0, 2.0, 20.0, SIZE).unwrap();
+    for (view, radius) in [(spot, 0.5), (sun, 0.05)] {
+        let views = view.over_disc(radius, 32).unwrap();
+        let mut farthest = 0.0f64;
+        let mut sum = DVec3::ZERO;
+        for point in &views {
+            assert_eq!(
+                (point.rules(), point.cone(), point.size(), point.kind()),
+                (&Rules::OPEN, None, view.size(), view.kind())
+            );
+            let by = if view.is_perspective() {
+                let by = point.light().truncate() - view.light().truncate();
+                assert!(by.dot(view.ahead()).abs() < 1e-12, "square to the axis");
+                // What a corner of the map shows at the far plane.
+                for texel in [DVec2::ZERO, DVec2::new(64.0, 20.0), DVec2::splat(31.5)] {
+                    let (a, b) = (view.world_at(texel, view.key(20.0)), point.world_at(texel, point.key(20.0)));
+                    assert!(a.abs_diff_eq(b, 1e-9), "{a} {b}");
+                }
+                by
+            } else {
+                let middle = view.world_at(DVec2::splat(32.0), view.key(11.0));
+                assert!(
+                    middle.abs_diff_eq(point.world_at(DVec2::splat(32.0), point.key(11.0)), 1e-9),
+                    "turned about the middle"
+                );
+                let way = point.ahead() / point.ahead().dot(view.ahead());
+                way - view.ahead()
+            };
+            farthest = farthest.max(by.length());
+            sum += by;
+        }
+        assert!(farthest <= radius && farthest > 0.95 * radius, "{farthest}");
+        assert!(sum.length() / 32.0 < 0.05 * radius, "even about the centre");
+        assert!(view.over_disc(f64::NAN, 3).is_err() && view.over_disc(-1.0, 3).is_err());
+        assert_eq!(view.over_disc(0.0, 1).unwrap()[0].world_to_eye(), view.world_to_eye());
+    }
+}
+
 /// Kinds choose themselves: floats of the natural kind are never coarser than twice those of the distance from the near plane.
 #[test]
 fn a_view_stores_the_kind_of_depth_that_suits_its_range() {

@@ -160,6 +160,22 @@ pub const FIELDS: &[Field] = &[
         "the same for the gentler slope, in changes of depth over a sample",
         ""
     ),
+    optional!(
+        "light",
+        AUTO,
+        Kind::Number,
+        |values| values.light,
+        "radius of a disc light, world units (tangent of its angle if directional): the mean of `maps` maps",
+        ""
+    ),
+    plain!(
+        "maps",
+        AUTO,
+        Kind::Whole(1024),
+        |values| values.maps,
+        "with `light`: points of the disc, each with a map",
+        ""
+    ),
     words!(
         "stored",
         STORING,

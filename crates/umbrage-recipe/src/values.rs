@@ -93,6 +93,8 @@ pub struct Values {
     pub dither: Dither,
     pub refinement: Refinement,
     pub dual: DualPlane,
+    /// Points of a light with a size.
+    pub maps: u32,
 }
 
 impl Values {
@@ -173,6 +175,7 @@ impl Values {
             dither: williams.dither,
             refinement: Refinement::default(),
             dual: DualPlane::default(),
+            maps: 16,
         }
     }
 

@@ -48,6 +48,26 @@ fn every_preset_bakes_the_map_it_expects_and_shadows_by_it() {
 }
 
 #[test]
+fn a_light_with_a_size_has_a_map_for_each_of_its_points() {
+    let sized = recipe("auto,light=0.5,maps=9");
+    let views = sized.views(&lamp()).unwrap();
+    assert_eq!((views.len(), recipe("auto").views(&lamp()).unwrap()), (9, vec![lamp()]));
+    assert_eq!(recipe("burley,light=0.5").views(&lamp()).unwrap().len(), 1);
+    let maps = || views.iter().map(|view| sized.bake(view, boards()));
+    let shadow = sized.bind_all(&lamp(), maps(), Storage::Tiled).unwrap();
+    // Well under the board, well beside it, and where the lamp's middle is just hidden.
+    assert_eq!((at(&*shadow, 0.1, 0.0), at(&*shadow, 6.1, 0.0)), (1.0, 0.0));
+    let row: Vec<f32> = (0..200).map(|i| at(&*shadow, 2.0 + i as f32 * 0.03, 0.0)).collect();
+    assert!(row.windows(2).all(|pair| pair[1] <= pair[0] + 1e-6), "lighter toward the side");
+    let levels = row.iter().filter(|dark| **dark > 0.0 && **dark < 1.0).count();
+    assert!(levels > 3, "a penumbra: {row:?}");
+    let refused = sized.bind(maps().next().unwrap(), Storage::Tiled).err().map(|error| error.to_string());
+    assert!(refused.unwrap().starts_with("light = \"0.5\": expected none over one map"));
+    let hard = recipe("auto").bind_all(&lamp(), [recipe("auto").bake(&lamp(), boards())], Storage::Tiled).unwrap();
+    assert_eq!(at(&*hard, 0.1, 0.0), 1.0);
+}
+
+#[test]
 fn what_is_baked_records_the_surface_that_stored_names() {
     let of = |text: &str| recipe(text).bake(&lamp(), boards()).stored();
     assert_eq!(of("burley,stored=second"), Stored::Second);

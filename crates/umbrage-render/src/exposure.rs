@@ -1,10 +1,11 @@
 use crate::Soup;
 use umbrage_bake::{Deep, bake_deep, mix_moments};
-use umbrage_depth::{DeepMap, DepthMap, Map, Tiled};
+use umbrage_depth::{DeepMap, DepthMap, Map, Storage, Tiled};
 use umbrage_plane::View;
 use umbrage_raster::Stats;
-use umbrage_recipe::Recipe;
+use umbrage_recipe::{Recipe, RecipeError};
 use umbrage_scene::Scene;
+use umbrage_shadow::Shadow;
 
 /// Pass 1: the map that a recipe wants of a scene as a light's view sees it.
 ///
@@ -14,7 +15,24 @@ pub fn light_map(recipe: &Recipe, scene: &Scene, view: &View) -> Map {
     exposed_map(recipe, &[scene], view).0
 }
 
-/// The same over an exposure, `moments` being the scene at evenly spread times (EXT-2): deep maps hold the mean of them; of maps of one
+/// Pass 1 and what it is for: the shadow of a light by a recipe, over a map of each view that the recipe wants of it.
+///
+/// # Errors
+/// As [`Recipe::views`] and [`Recipe::bind`].
+///
+/// # Panics
+/// As [`Soup::casters`].
+pub fn light_shadow(
+    recipe: &Recipe,
+    scene: &Scene,
+    view: &View,
+    storage: Storage,
+) -> Result<Box<dyn Shadow>, RecipeError> {
+    let maps = recipe.views(view)?.into_iter().map(|view| light_map(recipe, scene, &view));
+    recipe.bind_all(view, maps, storage)
+}
+
+/// [`light_map`] over an exposure, `moments` being the scene at evenly spread times (EXT-2): deep maps hold the mean of them; of maps of one
 /// surface each texel sees one of them. An empty map of none. Beside it, what became of the triangles of all moments.
 ///
 /// # Panics

@@ -31,7 +31,7 @@ pub mod post;
 mod shade;
 mod soup;
 
-pub use exposure::{expose, expose_deep, exposed_map, light_map};
+pub use exposure::{expose, expose_deep, exposed_map, light_map, light_shadow};
 pub use lights::{bind_lights, light_maps};
 pub use picture::{Frame, NOTHING, Picture, picture};
 pub use planar::{Ground, Planar};

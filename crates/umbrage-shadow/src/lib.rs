@@ -45,7 +45,8 @@ pub use filters::{
     VirtualWhen, Williams, integer_first, williams,
 };
 pub use lights::{
-    Around, AroundError, Evaluate, LatLong, LatLongError, Shadow, ShadowMap, Tags, Unshadowed, same_length,
+    Around, AroundError, DiscLight, Evaluate, LatLong, LatLongError, Mean, Shadow, ShadowMap, Tags, Unshadowed,
+    same_length,
 };
 pub use mean::weighted_mean;
 pub use presets::{Preset, StoredError};

@@ -11,14 +11,14 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use umbrage_bake::Deep;
 use umbrage_depth::{DeepMap, DepthMap, Map, Step, compress_steps};
-use umbrage_oracle::{Geometry, Mean, RayCast, metrics};
+use umbrage_oracle::{Geometry, RayCast, metrics};
 use umbrage_plane::{TexelRect, View};
 use umbrage_recipe::Recipe;
 use umbrage_render::{Frame, Picture, expose_deep, exposed_map, picture};
 use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::{Made, Measure, Panel, Role};
 use umbrage_scene::{Scene, gallery};
-use umbrage_shadow::{Shadow, Unshadowed};
+use umbrage_shadow::{Mean, Shadow, Unshadowed};
 
 pub const DEEP: Figure = Figure {
     id: "B06-deep",

@@ -10,7 +10,7 @@ use umbrage_oracle::{AreaLight, Geometry, RayCast};
 use umbrage_plane::{Kind, Sampling, View};
 use umbrage_raster::Cull;
 use umbrage_recipe::{Recipe, bind};
-use umbrage_render::{Frame, Picture, Soup, light_map, picture};
+use umbrage_render::{Frame, Picture, Soup, light_shadow, picture};
 use umbrage_scene::Scene;
 use umbrage_shadow::{Filter, Shadow, Unshadowed};
 
@@ -59,8 +59,7 @@ impl Set {
     /// Light 0's shadow by a recipe, over the map that the recipe wants.
     pub fn shadow(&self, cx: &Context, recipe: &str) -> anyhow::Result<Box<dyn Shadow>> {
         let recipe: Recipe = recipe.parse()?;
-        let map = light_map(&recipe, &self.scene, &self.scene.lights[0].view);
-        Ok(recipe.bind(map, cx.storage)?)
+        Ok(light_shadow(&recipe, &self.scene, &self.scene.lights[0].view, cx.storage)?)
     }
 
     /// The picture without any shadow.

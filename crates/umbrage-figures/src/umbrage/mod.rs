@@ -23,4 +23,5 @@ pub const FIGURES: &[&Figure] = &[
     &softness::SOFTNESS,
     &auto::LADDER_OF_PARTS,
     &auto::BYTES,
+    &auto::AREA,
 ];

@@ -1,10 +1,10 @@
 //! EXT-3, X-5: light that passes through things; EXT-2: means over time.
 use crate::bodies::{cuboid, rectangle};
 use glam::{DMat3, DVec3, DVec4, Vec3};
-use umbrage_oracle::{AreaLight, AreaRegion, Body, Face, Geometry, Mean, RayCast, Truth};
+use umbrage_oracle::{AreaLight, AreaRegion, Body, Face, Geometry, RayCast, Truth};
 use umbrage_plane::SurfacePoint;
 use umbrage_sample::Key;
-use umbrage_shadow::{Shadow, Unshadowed};
+use umbrage_shadow::{Mean, Shadow, Unshadowed};
 
 const KEY: Key = Key::new(7, 0, 0);
 const RED: Vec3 = Vec3::new(0.5, 0.25, 0.0);

@@ -1,12 +1,16 @@
 //! What shading sees: lights of one map, of several around them, and of one over all directions.
 
 mod around;
+mod disc;
 mod lat_long;
+mod mean;
 mod shadow_map;
 mod tags;
 
 pub use around::{Around, AroundError, Evaluate};
+pub use disc::DiscLight;
 pub use lat_long::{LatLong, LatLongError};
+pub use mean::Mean;
 pub use shadow_map::ShadowMap;
 pub use tags::Tags;
 

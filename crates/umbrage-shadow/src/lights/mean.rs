@@ -1,9 +1,10 @@
+use super::{Shadow, same_length};
 use glam::Vec3;
 use umbrage_plane::SurfacePoint;
 use umbrage_sample::Key;
-use umbrage_shadow::{Shadow, same_length};
 
-/// The mean of several shadows, each of equal weight: truth at several times of a frame is motion blur (EXT-2).
+/// The mean of several shadows, each of equal weight: over several times of a frame it is motion blur (EXT-2), over several points of a
+/// light its penumbra (Haeberli & Akeley 1990).
 ///
 /// All are asked with the same key. Without any, everything is lit.
 pub struct Mean<'a>(pub Vec<Box<dyn Shadow + 'a>>);
@@ -40,5 +41,11 @@ impl Shadow for Mean<'_> {
         for sum in out {
             *sum /= self.0.len().max(1) as f32;
         }
+    }
+}
+
+impl std::fmt::Debug for Mean<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Mean").field(&self.0.len()).finish()
     }
 }
