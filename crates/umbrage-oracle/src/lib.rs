@@ -1,7 +1,7 @@
 //! Truth by ray casting, and the measures of shadow faults.
 //!
 //! The oracle is one more [`Shadow`](umbrage_shadow::Shadow): [`RayCast`] answers exactly for a point, [`AreaRegion`]
-//! for a pixel's region, [`AreaLight`] for a light with extent, [`Mean`] for a time that the shutter is open. [`metrics`]
+//! for a pixel's region, [`AreaLight`] for a light with extent, [`Mean`](umbrage_shadow::Mean) of them for a time that the shutter is open. [`metrics`]
 //! are the measures M1..M9 of the figures, [`faults`] gives the named faults of a picture with a heat map of each,
 //! [`predict`] what theory expects, [`BiasCase`] and [`BiasSearch`] whether a bias works, [`diagnose`] what to mend.
 //!
