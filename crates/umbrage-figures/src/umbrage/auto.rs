@@ -34,7 +34,7 @@ const STAGES: [(&str, Make); 14] = [
 ];
 
 /// The best mixture of the papers' parts.
-const MIX: &str = "wang-molnar94,stored=midpoint,pattern=tent";
+pub(super) const MIX: &str = "wang-molnar94,stored=midpoint,pattern=tent";
 
 /// So many recipes of the ladder, the first, are controls.
 const CONTROLS: usize = 2;
@@ -57,24 +57,24 @@ const PART: u32 = 3;
 
 /// A picture against 64 rays a pixel.
 #[derive(Clone, Copy)]
-struct Error {
+pub(super) struct Error {
     /// Root mean square over pixels that see one surface, facing the light.
-    rms: f64,
+    pub rms: f64,
     /// Share of those more than three pixels from truth's edges that are wrong by more than a half.
-    wrong: f64,
+    pub wrong: f64,
 }
 
 /// A scene, its truth, and which pixels are judged.
-struct Judge {
-    set: Set,
-    truth: Arc<Picture>,
+pub(super) struct Judge {
+    pub set: Set,
+    pub truth: Arc<Picture>,
     seen: Vec<bool>,
     /// Those of them that are far from truth's edges.
     sure: Vec<bool>,
 }
 
 impl Judge {
-    fn new(cx: &Context, make: Make, pixels: u32, texels: u32) -> Self {
+    pub fn new(cx: &Context, make: Make, pixels: u32, texels: u32) -> Self {
         const FACING: f32 = 0.02;
         let set = Set::new(make(), pixels, texels);
         let truth = set.truth(cx);
@@ -89,7 +89,7 @@ impl Judge {
         Self { set, truth, seen, sure }
     }
 
-    fn error(&self, picture: &Picture) -> Error {
+    pub fn error(&self, picture: &Picture) -> Error {
         let (own, exact) = (&picture.shadow[0], &self.truth.shadow[0]);
         let sure = || (0..own.len()).filter(|&i| self.sure[i]);
         let wrong = sure().filter(|&i| (own[i] - exact[i]).abs() > 0.5).count();
@@ -97,7 +97,7 @@ impl Judge {
     }
 
     /// A recipe's picture, and all bytes of its map for each texel.
-    fn by(&self, cx: &Context, recipe: &str, frame: &Frame) -> anyhow::Result<(Picture, f64)> {
+    pub fn by(&self, cx: &Context, recipe: &str, frame: &Frame) -> anyhow::Result<(Picture, f64)> {
         let recipe: Recipe = recipe.parse()?;
         let view = &self.set.scene.lights[0].view;
         let map = light_map(&recipe, &self.set.scene, view);
@@ -106,7 +106,7 @@ impl Judge {
     }
 }
 
-fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
+pub(super) fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
     values.clone().sum::<f64>() / values.count().max(1) as f64
 }
 
@@ -119,9 +119,10 @@ pub const LADDER_OF_PARTS: Figure = Figure {
 };
 
 fn ladder(cx: &Context) -> anyhow::Result<Made> {
-    let (pixels, texels) = (cx.pick(256, 128), cx.pick(512, 256));
+    let (pixels, texels) = (cx.pick(512, 128), cx.pick(512, 256));
     let mut made = Made::default();
     let mut found = vec![Vec::new(); LADDER.len()];
+    let mut smaller = [Vec::new(), Vec::new()];
     let (mut exact, mut bytes) = (Vec::new(), Vec::new());
     for (name, make) in STAGES {
         let judge = Judge::new(cx, make, pixels, texels);
@@ -140,6 +141,10 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
                 made.panels.push(zoomed(&format!("{id}-zoom"), "Enlarged", &picture, MIDDLE, PART));
             }
         }
+        for (divisor, errors) in [2, 4].into_iter().zip(&mut smaller) {
+            let judge = Judge::new(cx, make, pixels, texels / divisor);
+            errors.push(judge.error(&judge.by(cx, "auto", &Frame::CENTRES)?.0));
+        }
         if name == SHOWN {
             made.panels.push(truth_panel(&judge.truth));
             made.panels.push(zoomed("truth-zoom", "Enlarged", &judge.truth, MIDDLE, PART).role(Role::Truth));
@@ -153,6 +158,9 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
     };
     let mut rows = vec![line("one exact ray at the centre", &exact)];
     rows.extend(LADDER.iter().zip(&found).map(|((name, _), errors)| line(name, errors)));
+    for (size, errors) in ["half the size", "a quarter of the size"].into_iter().zip(&smaller) {
+        rows.push(line(&format!("auto over maps of {size}"), errors));
+    }
     rows.push(row("auto: bytes for each texel", bytes.iter().copied().chain([mean(bytes.iter().copied())])));
     made.tables.push(Table { name: "errors".into(), head, rows });
     let rms = |step: usize| mean(found[step].iter().map(|error| error.rms));
@@ -170,10 +178,13 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
     }
     made.plots.push(("ladder".into(), plot.svg()));
     let auto = LADDER.iter().position(|(_, recipe)| *recipe == "auto").unwrap_or(0);
+    let small = |which: usize| mean(smaller[which].iter().map(|error| error.rms));
     let wrong = |step: usize| mean(found[step].iter().map(|error| error.wrong));
     made.measures = vec![
-        Measure::at_most("auto: error, mean of all scenes", rms(auto), "rms", 0.012).full_size(cx.quick),
-        Measure::at_most("auto: false shadow and false light, mean", wrong(auto), "share", 0.0005),
+        Measure::at_most("auto, 512²: error, mean of all scenes", rms(auto), "rms", 0.009).full_size(cx.quick),
+        Measure::at_most("auto, 256²: error, mean of all scenes", small(0), "rms", 0.013).full_size(cx.quick),
+        Measure::at_most("auto, 128²: error, mean of all scenes", small(1), "rms", 0.02).full_size(cx.quick),
+        Measure::at_most("auto: false shadow and false light, mean", wrong(auto), "share", 0.0001),
         Measure::at_most("auto over one exact ray: error", rms(auto) / ray, "times", 0.5).full_size(cx.quick),
         Measure::at_most("auto over the papers' best mixture: error", rms(auto) / rms(1), "times", 0.5)
             .full_size(cx.quick),

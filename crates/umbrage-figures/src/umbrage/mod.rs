@@ -3,6 +3,7 @@
 mod auto;
 mod curves;
 mod faults;
+mod kinds;
 mod matrix;
 mod methods;
 mod paging;
@@ -24,4 +25,5 @@ pub const FIGURES: &[&Figure] = &[
     &auto::LADDER_OF_PARTS,
     &auto::BYTES,
     &auto::AREA,
+    &kinds::KINDS,
 ];

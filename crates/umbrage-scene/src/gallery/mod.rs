@@ -13,6 +13,7 @@ mod foliage;
 mod four_spheres;
 mod glass_pane;
 mod hall;
+mod kinds;
 mod lamp;
 mod moving_ball;
 mod pins;
@@ -36,6 +37,7 @@ pub use boxes::{contact_box, overlapping_boxes, single_occluder, two_heights};
 pub use desk_lamps::desk_lamps;
 pub use four_spheres::{four_spheres, four_spheres_lit_from};
 pub use glass_pane::glass_pane;
+pub use kinds::{city, fence, gears, hair, letters, louvres, pergola, stairs, wheels};
 pub use moving_ball::moving_ball;
 pub use pipes::{pipe_segments, pipes};
 pub use plant::{BLADES, plant};
@@ -82,6 +84,24 @@ pub const ALL: &[(&str, Make)] = &[
     ("sheets-curved", || sheets(true)),
     ("occluder-sphere", occluder_sphere),
     ("grazing", grazing),
+    ("fence", || fence(0)),
+    ("fence-2", || fence(1)),
+    ("letters", || letters(0)),
+    ("letters-2", || letters(1)),
+    ("stairs", || stairs(0)),
+    ("stairs-2", || stairs(1)),
+    ("louvres", || louvres(0)),
+    ("louvres-2", || louvres(1)),
+    ("city", || city(0)),
+    ("city-2", || city(1)),
+    ("gears", || gears(0)),
+    ("gears-2", || gears(1)),
+    ("hair", || hair(0)),
+    ("hair-2", || hair(1)),
+    ("wheels", || wheels(0)),
+    ("wheels-2", || wheels(1)),
+    ("pergola", || pergola(0)),
+    ("pergola-2", || pergola(1)),
 ];
 
 /// How many bicubic patches a scene has.
