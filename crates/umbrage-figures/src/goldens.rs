@@ -23,9 +23,9 @@ pub struct Picture {
 /// The README's pictures.
 pub const PICTURES: &[Picture] = &[
     Picture { file: "fixtures/readme/hero.png", figure: "R87-F14", panel: "shop" },
-    Picture { file: "fixtures/readme/woo.png", figure: "U-auto-ladder", panel: "woo-zoom" },
-    Picture { file: "fixtures/readme/auto.png", figure: "U-auto-ladder", panel: "auto-zoom" },
-    Picture { file: "fixtures/readme/truth.png", figure: "U-auto-ladder", panel: "truth-zoom" },
+    Picture { file: "fixtures/readme/woo.png", figure: "U-auto", panel: "woo-zoom" },
+    Picture { file: "fixtures/readme/auto.png", figure: "U-auto", panel: "auto-zoom" },
+    Picture { file: "fixtures/readme/truth.png", figure: "U-auto", panel: "truth-zoom" },
     Picture { file: "fixtures/readme/robot.png", figure: "W78-F8", panel: "robot" },
     Picture { file: "fixtures/readme/lamps.png", figure: "R87-F12", panel: "c-jittered" },
     Picture { file: "fixtures/readme/williams.png", figure: "W78-F6", panel: "applied" },

@@ -50,11 +50,6 @@ const LADDER: [(&str, &str); 7] = [
     ("and 8 × 8 places", "auto,across=8"),
 ];
 
-/// The scene that is shown, where its box stands on the ground, and the part of the picture's width around there that is enlarged.
-const SHOWN: &str = "contact box";
-const MIDDLE: DVec2 = DVec2::new(0.25, 0.70);
-const PART: u32 = 3;
-
 /// A picture against 64 rays a pixel.
 #[derive(Clone, Copy)]
 pub(super) struct Error {
@@ -110,6 +105,44 @@ pub(super) fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
     values.clone().sum::<f64>() / values.count().max(1) as f64
 }
 
+/// Where the box stands on the ground, and the part of the picture's width around there that is enlarged.
+const MIDDLE: DVec2 = DVec2::new(0.25, 0.70);
+const PART: u32 = 3;
+
+pub const SHOWN: Figure = Figure {
+    id: "U-auto",
+    paper: Paper::Umbrage,
+    title: "The default beside a paper's map, and beside rays",
+    claim: "Edges, contacts and thin shadows as many rays see them, from one small map without a bias.",
+    make: shown,
+};
+
+fn shown(cx: &Context) -> anyhow::Result<Made> {
+    let judge = Judge::new(cx, gallery::contact_box, cx.pick(256, 128), cx.pick(512, 256));
+    let mut made = Made::default();
+    let mut found = Vec::new();
+    for (id, caption, recipe) in [("woo", "Woo 1992", "woo92"), ("auto", "auto", "auto")] {
+        let (picture, bytes) = judge.by(cx, recipe, &Frame::CENTRES)?;
+        found.push((judge.error(&picture), bytes));
+        made.panels.push(shadow_panel(id, caption, &picture).with("recipe", recipe).against("truth"));
+        let (own, truth) = (&picture.shadow[0], &judge.truth.shadow[0]);
+        made.panels.push(error_panel(&format!("{id}-error"), "Less truth", picture.size, own, truth));
+        made.panels.push(zoomed(&format!("{id}-zoom"), "Enlarged", &picture, MIDDLE, PART));
+    }
+    made.panels.push(truth_panel(&judge.truth));
+    made.panels.push(zoomed("truth-zoom", "Enlarged", &judge.truth, MIDDLE, PART).role(Role::Truth));
+    let texels = f64::from(judge.set.scene.lights[0].view.size().element_product());
+    made.measures = vec![
+        Measure::at_most("auto: error", found[1].0.rms, "rms", 0.012),
+        Measure::at_most("auto over Woo: error", found[1].0.rms / found[0].0.rms, "times", 0.25),
+        Measure::at_most("auto: false shadow and false light", found[1].0.wrong, "share", 0.0),
+        Measure::info("auto: kilobytes", found[1].1 * texels / 1024.0, "KB"),
+        Measure::info("Woo: kilobytes", found[0].1 * texels / 1024.0, "KB"),
+    ];
+    made.note = "One look-up for each pixel; truth is the mean of 64 rays.".into();
+    Ok(made)
+}
+
 pub const LADDER_OF_PARTS: Figure = Figure {
     id: "U-auto-ladder",
     paper: Paper::Umbrage,
@@ -124,30 +157,19 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
     let mut found = vec![Vec::new(); LADDER.len()];
     let mut smaller = [Vec::new(), Vec::new()];
     let (mut exact, mut bytes) = (Vec::new(), Vec::new());
-    for (name, make) in STAGES {
+    for (_, make) in STAGES {
         let judge = Judge::new(cx, make, pixels, texels);
         exact.push(judge.error(&judge.set.truth_points(cx, &Frame::CENTRES)));
-        for (step, (caption, recipe)) in LADDER.iter().enumerate() {
+        for (step, (_, recipe)) in LADDER.iter().enumerate() {
             let (picture, kept) = judge.by(cx, recipe, &Frame::CENTRES)?;
             found[step].push(judge.error(&picture));
             if *recipe == "auto" {
                 bytes.push(kept);
             }
-            if name == SHOWN && (step == 0 || *recipe == "auto") {
-                let id = if step == 0 { "woo" } else { "auto" };
-                made.panels.push(shadow_panel(id, caption, &picture).with("recipe", recipe).against("truth"));
-                let (own, truth) = (&picture.shadow[0], &judge.truth.shadow[0]);
-                made.panels.push(error_panel(&format!("{id}-error"), "Less truth", picture.size, own, truth));
-                made.panels.push(zoomed(&format!("{id}-zoom"), "Enlarged", &picture, MIDDLE, PART));
-            }
         }
         for (divisor, errors) in [2, 4].into_iter().zip(&mut smaller) {
             let judge = Judge::new(cx, make, pixels, texels / divisor);
             errors.push(judge.error(&judge.by(cx, "auto", &Frame::CENTRES)?.0));
-        }
-        if name == SHOWN {
-            made.panels.push(truth_panel(&judge.truth));
-            made.panels.push(zoomed("truth-zoom", "Enlarged", &judge.truth, MIDDLE, PART).role(Role::Truth));
         }
     }
     let head = || ["error, rms"].into_iter().chain(STAGES.iter().map(|stage| stage.0)).chain(["mean"]);
@@ -264,65 +286,5 @@ fn bytes(cx: &Context) -> anyhow::Result<Made> {
             .full_size(cx.quick),
     ];
     made.note = "Bytes are all that a map holds, tables and directories included.".into();
-    Ok(made)
-}
-
-pub const AREA: Figure = Figure {
-    id: "U-auto-area",
-    paper: Paper::Umbrage,
-    title: "Lights with a size as a mean of maps",
-    claim: "The mean of small maps over a light is its penumbra, contacts included; filters of one map only look like it.",
-    make: area,
-};
-
-/// The radius of the lamp, world units, and what is asked to show it: caption, recipe, side of its maps.
-const RADIUS: f64 = 24.0;
-const SOFT: [(&str, &str, &str, u32); 6] = [
-    ("pcss", "PCSS by the light's size", "fernando,light=24,bias=1t", 512),
-    ("burley", "Burley by the light's size", "burley,light=24", 512),
-    ("auto-4", "auto: 4 maps of 128²", "auto,light=24,maps=4,across=1", 128),
-    ("auto-16", "auto: 16 maps of 128²", "auto,light=24,maps=16,across=1", 128),
-    ("auto-64", "auto: 64 maps of 128²", "auto,light=24,maps=64,across=1", 128),
-    ("auto-16-large", "auto: 16 maps of 512²", "auto,light=24,maps=16,across=1", 512),
-];
-
-fn area(cx: &Context) -> anyhow::Result<Made> {
-    let pixels = cx.pick(256, 96);
-    let mut made = Made::default();
-    let mut found = Vec::new();
-    let mut rows = Vec::new();
-    let truth = Set::new(gallery::contact_box(), pixels, 512).truth_disc(cx, &Frame::CENTRES, RADIUS);
-    let seen: Vec<bool> = truth.share.iter().zip(&truth.facing[0]).map(|(s, f)| *s == 1.0 && *f > 0.02).collect();
-    for (id, caption, recipe, texels) in SOFT {
-        let set = Set::new(gallery::contact_box(), pixels, texels);
-        let picture = set.by(cx, recipe, &Frame::CENTRES)?;
-        let parsed: Recipe = recipe.parse()?;
-        let views = parsed.views(&set.scene.lights[0].view)?;
-        let bytes: usize =
-            views.iter().map(|view| light_map(&parsed, &set.scene, view).kept(cx.storage).allocated()).sum();
-        let (own, exact) = (&picture.shadow[0], &truth.shadow[0]);
-        let rms = value(metrics::rms(own, exact, &seen));
-        made.panels.push(shadow_panel(id, caption, &picture).with("recipe", recipe).against("truth"));
-        made.panels.push(error_panel(&format!("{id}-error"), "Less truth", truth.size, own, exact));
-        rows.push(vec![caption.to_string(), format!("{rms:.4}"), format!("{:.0}", bytes as f64 / 1024.0)]);
-        found.push((rms, bytes as f64 / 1024.0));
-    }
-    made.panels.push(truth_panel(&truth));
-    let head = ["light of radius 24", "error, rms", "kilobytes"].map(String::from).to_vec();
-    made.tables.push(Table { name: "soft light".into(), head, rows });
-    let best = found[0].0.min(found[1].0);
-    made.measures = vec![
-        Measure::at_most("16 maps of 128²: error", found[3].0, "rms", 0.011).full_size(cx.quick),
-        Measure::at_most("16 maps of 128²: kilobytes", found[3].1, "KB", 1536.0),
-        Measure::at_most("16 maps of 128² over the better filter of one map: error", found[3].0 / best, "times", 1.0),
-        Measure::at_most("64 maps of 128² over the better filter of one map: error", found[4].0 / best, "times", 0.5),
-        Measure::info("4 maps of 128²: error", found[2].0, "rms"),
-        Measure::info("16 maps of 512²: error", found[5].0, "rms"),
-        Measure::info("PCSS: error", found[0].0, "rms"),
-        Measure::info("Burley: error", found[1].0, "rms"),
-    ];
-    made.note = "Truth sends rays to all of the lamp from each pixel's centre, and so the maps are asked at one place a pixel. Steps between the maps' \
-                 shadows are what few maps leave."
-        .into();
     Ok(made)
 }

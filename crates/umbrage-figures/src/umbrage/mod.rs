@@ -1,5 +1,6 @@
 //! What no paper shows: methods side by side, fault by fault, on all scenes.
 
+mod area;
 mod auto;
 mod curves;
 mod faults;
@@ -22,8 +23,9 @@ pub const FIGURES: &[&Figure] = &[
     &matrix::PRESETS,
     &paging::PAGING,
     &softness::SOFTNESS,
+    &auto::SHOWN,
     &auto::LADDER_OF_PARTS,
     &auto::BYTES,
-    &auto::AREA,
+    &area::AREA,
     &kinds::KINDS,
 ];
