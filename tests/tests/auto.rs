@@ -180,6 +180,25 @@ fn the_same_bits_one_by_one_together_and_without_wide_instructions() {
     }
 }
 
+/// Whatever the rules leave to the map is asked of it, however far outside it lies.
+#[test]
+fn nothing_is_seen_far_outside_the_map() {
+    let compare = Rules { outside: umbrage_plane::Verdict::Compare, ..Rules::VOLUME };
+    let view = View::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, 1.0, 20.0, UVec2::splat(64)).unwrap();
+    let view = view.with_rules(compare);
+    let recipe: Recipe = "auto".parse().unwrap();
+    let wall = cuboid(DVec3::new(-9.0, -9.0, -6.0), DVec3::new(9.0, 9.0, -5.0), 0);
+    let shadow = recipe.bind(recipe.bake(&view, wall), Storage::Tiled).unwrap();
+    for zeta in [1e-300, 1e-12, 1e-9, 1e-6, 1e-3, 1.0] {
+        for half in [0.0, 0.3, 40.0] {
+            let corner = |x: f64, y: f64| DVec3::new(5.0 + x * half, y * half, -zeta);
+            let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+            let point = SurfacePoint::at(DVec3::new(5.0, 0.0, -zeta), Vec3::Z).with_corners(corners);
+            assert_eq!(shadow.fraction(&point, KEY), 0.0, "{zeta} {half}");
+        }
+    }
+}
+
 #[test]
 fn rules_are_asked_at_each_place_of_a_region() {
     // A region across the border of an empty map: half of it outside, where all is dark.

@@ -174,7 +174,7 @@ impl Bins {
         });
     }
 
-    /// What is nearest all over a region (in 1/256 texel), where that can be told from its corners: then no sample in it needs to be asked.
+    /// What is nearest all over a region (in 1/256 texel), where its corners decide that: then no sample in it needs to be asked.
     pub fn seen(&self, region: TexelRect) -> Seen {
         let mut pieces: Vec<(Facet, bool)> = Vec::new();
         let corners =

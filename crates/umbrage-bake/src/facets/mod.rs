@@ -73,7 +73,7 @@ pub fn bake_facets<R: FacetRule>(
 /// [`DualPlane`]: https://docs.rs/umbrage-shadow
 ///
 /// # Panics
-/// When `fine` is not 2, 4 or 8, or `slots` is no power of two from 2 to 64/`fine`.
+/// When `fine` is not 2, 4 or 8, or `slots` is not a power of two from 2 to 64/`fine`.
 pub fn bake_refined(
     view: &View,
     triangles: impl IntoIterator<Item = Triangle>,

@@ -189,7 +189,8 @@ fn refined_texels_see_what_a_plain_test_of_each_sample_sees() {
     assert!(asked > 30_000 && refined > 5000 && links > 500, "{asked} samples, {refined} refined, {links} links");
 }
 
-/// A link's place against the first of 256 places on the way where the surface is nearer to the other sample's plane. Whether it could be told.
+/// A link's place against the first of 256 places on the way where the surface is nearer to the other sample's plane. Returns whether that place is
+/// beyond doubt.
 fn check_link(map: &FacetMap, seen: &[Seen], at: IVec2, next: IVec2, crossing: f64, seed: u64) -> bool {
     let side = f64::from(map.fine());
     let place = |t: f64| (at.as_dvec2() + 0.5 + next.as_dvec2() * t) / side;

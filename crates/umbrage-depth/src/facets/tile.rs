@@ -147,7 +147,7 @@ impl FacetTile {
         [(plane.at(middle) - base) as f32, plane.dx as f32, plane.dy as f32]
     }
 
-    /// The plane of a texel, over the map's texels; `depth` makes the key of a depth that is kept as such.
+    /// The plane of a texel, over the map's texels, or its depth where only that is kept.
     #[inline(always)]
     pub(super) fn plane(&self, origin: IVec2, at: UVec2) -> Stored {
         let index = (at.y * TILE + at.x) as usize;

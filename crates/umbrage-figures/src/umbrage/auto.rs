@@ -50,7 +50,7 @@ const LADDER: [(&str, &str); 7] = [
     ("and 8 × 8 places", "auto,across=8"),
 ];
 
-/// A picture against 64 rays a pixel.
+/// A picture against 64 rays per pixel.
 #[derive(Clone, Copy)]
 pub(super) struct Error {
     /// Root mean square over pixels that see one surface, facing the light.

@@ -124,6 +124,9 @@ impl Voter {
 /// Samples along each side of the region that are kept at hand; larger regions ask the map for each place.
 const AT_HAND: i32 = 9;
 
+/// Beyond so many samples from the origin, and at NaN, no map has one.
+const FAR: f64 = 1e9;
+
 /// The samples under a region.
 struct Grid<'a, 'b, F: ?Sized> {
     asked: &'b Asked<'a, F>,
@@ -164,7 +167,9 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
         let fine = f64::from(self.map.fine());
         let corner = |at: DVec2| (at * fine - 0.5).floor();
         let (low, high) = (corner(self.texel - reach), corner(self.texel + reach) + 2.0);
-        // NaN is in no rectangle.
+        if !(low.abs().max_element() < FAR && high.abs().max_element() < FAR) {
+            return (self.places(false, |_| false), 0);
+        }
         let rect = TexelRect::new(low.as_ivec2(), high.as_ivec2());
         let inside = self.view.holds(self.texel.as_vec2(), reach.as_vec2());
         let small = (high - low).max_element() <= f64::from(AT_HAND);
