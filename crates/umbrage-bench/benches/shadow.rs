@@ -42,6 +42,7 @@ fn filters(criterion: &mut Criterion) {
         ("conditional", "wang-molnar94", 4),
         ("soft", "burley", 64),
         ("pcf-deep", "reeves87,stored=deep,sub-samples=1", 16),
+        ("auto", "auto", 16),
     ];
     for (name, text, samples) in recipes {
         let mut group = criterion.benchmark_group(format!("shadow/{name}"));

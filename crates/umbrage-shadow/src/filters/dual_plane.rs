@@ -124,6 +124,9 @@ impl Voter {
 /// Samples along each side of the region that are kept at hand; larger regions ask the map for each place.
 const AT_HAND: i32 = 9;
 
+/// Regions of more texels along a side are not asked whether all of their samples agree.
+const MOST_AGREED: f64 = 16.0;
+
 /// Beyond so many samples from the origin, and at NaN, no map has one.
 const FAR: f64 = 1e9;
 
@@ -172,8 +175,9 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
         }
         let rect = TexelRect::new(low.as_ivec2(), high.as_ivec2());
         let inside = self.view.holds(self.texel.as_vec2(), reach.as_vec2());
-        let small = (high - low).max_element() <= f64::from(AT_HAND);
-        if inside && small {
+        let wide = (high - low).max_element();
+        let small = wide <= f64::from(AT_HAND);
+        if inside && wide <= MOST_AGREED * fine {
             let (agreed, looked) = self.agreed(rect);
             if let Some(dark) = agreed {
                 return (f32::from(u8::from(dark)), looked);
