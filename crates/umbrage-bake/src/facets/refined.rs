@@ -171,7 +171,7 @@ impl Part<'_> {
             let first = within.as_usizevec2() * fine;
             let grid =
                 |side: usize| (0..side * side).map(move |k| (first.y + k / side) * samples.side + first.x + k % side);
-            // Beyond the map nothing is: its border is no edge.
+            // Nothing lies beyond the map, and its border does not count as an edge.
             let on_map = |sample: &usize| place(*sample).cmplt(map.as_dvec2()).all();
             let own = facets[texel];
             let mut width = None;
