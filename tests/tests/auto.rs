@@ -4,11 +4,11 @@ use glam::{DVec3, UVec2, Vec3};
 use umbrage_bake::{Refinement, bake_refined};
 use umbrage_depth::{Map, Storage};
 use umbrage_oracle::{Body, Face, Geometry, RayCast};
-use umbrage_plane::{Kind, Rules, SurfacePoint, View, cube_views};
+use umbrage_plane::{Cells, Kind, Rules, SurfacePoint, View, cube_views};
 use umbrage_raster::Triangle;
 use umbrage_recipe::Recipe;
 use umbrage_sample::Key;
-use umbrage_shadow::{Around, DualPlane, Shadow};
+use umbrage_shadow::{Around, DualPlane, Shadow, ShadowMap};
 use umbrage_tests::laws::Subject;
 
 const KEY: Key = Key::new(5, 0, 0);
@@ -195,6 +195,34 @@ fn nothing_is_seen_far_outside_the_map() {
             let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
             let point = SurfacePoint::at(DVec3::new(5.0, 0.0, -zeta), Vec3::Z).with_corners(corners);
             assert_eq!(shadow.fraction(&point, KEY), 0.0, "{zeta} {half}");
+        }
+    }
+}
+
+#[test]
+fn a_region_is_asked_where_it_is_its_surface() {
+    let size = UVec2::splat(64);
+    let sun = View::orthographic(DVec3::Y * 10.0, DVec3::ZERO, DVec3::NEG_Z, 4.0, 1.0, 20.0, size).unwrap();
+    // A shadow edge along x = 0: dark to the right.
+    let casters = cuboid(DVec3::new(0.0, 2.0, -9.0), DVec3::new(9.0, 3.0, 9.0), 0);
+    let shadow =
+        ShadowMap { filter: DualPlane::default(), map: bake_refined(&sun, casters, &Refinement::default()).map };
+    let whole = |x: f64| {
+        let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(|(u, z)| DVec3::new(x + u, 0.0, z));
+        SurfacePoint::at(DVec3::new(x, 0.0, 0.0), Vec3::Y).with_corners(corners)
+    };
+    assert_eq!(shadow.fraction(&whole(0.0), KEY), 0.5);
+    // A pixel about x = 0 of which the surface has some columns of four, at ±3/8 and ±1/8: the point is at their mean.
+    for (columns, want) in
+        [(vec![0], 0.0), (vec![0, 1], 0.0), (vec![3], 1.0), (vec![0, 3], 0.5), (vec![0, 1, 2], 1.0 / 3.0)]
+    {
+        let cells = columns.iter().flat_map(|x| (0..4).map(move |y| (*x, y)));
+        let cells = cells.fold(Cells::NONE, |cells, (x, y)| cells.with(x, y, 4));
+        let part = SurfacePoint { cells, ..whole(0.5 * cells.centroid().x) };
+        for across in [4, 8] {
+            let filter = DualPlane::default().with_across(across);
+            let found = ShadowMap { filter, map: shadow.map.clone() }.fraction(&part, KEY);
+            assert!((found - want).abs() < 1e-6, "{columns:?}: {found}, not {want}, of {across} places");
         }
     }
 }

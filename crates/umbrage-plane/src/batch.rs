@@ -126,6 +126,7 @@ impl View {
                     footprint,
                     texel,
                     axes: footprint.axes(),
+                    cells: at[i].cells,
                     depth: depth[i],
                     texel_world: texel_world[i],
                     facing: facing[i] as f32,

@@ -32,6 +32,7 @@ mod altered;
 mod around;
 mod batch;
 mod builders;
+mod cells;
 mod footprint;
 mod look;
 mod named;
@@ -52,6 +53,7 @@ pub use glam;
 
 pub use affine::{Affine, Decode, DepthPlane, DepthRange, Facet, Facing, Kind};
 pub use around::{Sectors, cube_face, cube_views, sector_views};
+pub use cells::Cells;
 pub use footprint::Footprint;
 pub use look::up_for;
 pub use named::SpotView;

@@ -1,4 +1,4 @@
-use crate::{Affine, DepthPlane, Footprint, Kind, Place, Projection, Verdict, View};
+use crate::{Affine, Cells, DepthPlane, Footprint, Kind, Place, Projection, Verdict, View};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// A region of surface to be shaded, in world space.
@@ -14,6 +14,9 @@ pub struct SurfacePoint {
     /// From `position` to the region's four corners on the tangent plane, in order around it, world units; all zero for a
     /// point.
     pub corner_offsets: [Vec3; 4],
+    /// Which part of the region is the surface. Its `position` is where they have their centroid, and the corners are those of the whole region moved there: what
+    /// looks at the whole region has it about what it stands for.
+    pub cells: Cells,
     /// Names the region within its picture: random numbers are keyed by it.
     pub region: u32,
     /// Id of the object.
@@ -23,7 +26,14 @@ pub struct SurfacePoint {
 impl SurfacePoint {
     /// A point without extent, region 0, object 0. `position` may be a [`Vec3`] or a [`DVec3`].
     pub fn at(position: impl Into<DVec3>, normal: Vec3) -> Self {
-        Self { position: position.into(), normal, corner_offsets: [Vec3::ZERO; 4], region: 0, object: 0 }
+        Self {
+            position: position.into(),
+            normal,
+            corner_offsets: [Vec3::ZERO; 4],
+            cells: Cells::ALL,
+            region: 0,
+            object: 0,
+        }
     }
 
     /// The same point with the extent of four corners in world space, in order around it. They may be [`Vec3`]s or
@@ -72,6 +82,8 @@ pub struct Receiver {
     /// Half-axes of the footprint, texels: along the region's first edge (from its first corner to its second) and along its
     /// second edge, each the mean of two opposite edges. Zero for a point.
     pub axes: [Vec2; 2],
+    /// Which part of the parallelogram of the axes is the surface; the point is at their centroid.
+    pub cells: Cells,
     /// Depth at the region's centre, in the map's kind.
     pub depth: f32,
     /// Width and height of a texel at this depth, in world units.
@@ -176,6 +188,7 @@ impl View {
             footprint,
             texel,
             axes: footprint.axes(),
+            cells: at.cells,
             depth: self.depth(eye),
             texel_world: self.texel_world(zeta).as_vec2(),
             facing: normal.dot(toward) as f32,

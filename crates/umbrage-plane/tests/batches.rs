@@ -6,14 +6,16 @@ use umbrage_plane::{Kind, Place, Receiver, Rules, SurfacePoint, TexelRect, View}
 
 /// Every bit of a receiver; one pattern stands for all NaNs.
 fn bits(seen: &Result<Receiver, Place>) -> Result<Vec<u64>, Place> {
-    let Receiver { kind, footprint, texel, axes, depth, texel_world, facing, slope, object, eye, normal } = (*seen)?;
+    let Receiver { kind, footprint, texel, axes, cells, depth, texel_world, facing, slope, object, eye, normal } =
+        (*seen)?;
     let singles =
         [vec![footprint.centre, footprint.half, texel_world], footprint.corners.to_vec(), axes.to_vec()].concat();
     let singles = singles.into_iter().flat_map(|at| at.to_array()).chain([depth, facing, slope]);
     let doubles = [texel.to_array().to_vec(), eye.to_array().to_vec(), normal.to_array().to_vec()].concat();
     let single = |x: f32| if x.is_nan() { u64::MAX } else { u64::from(x.to_bits()) };
     let double = |x: f64| if x.is_nan() { u64::MAX } else { x.to_bits() };
-    let rest = [u64::from(object), kind as u64];
+    let whole = u64::from(cells.is_whole());
+    let rest = [u64::from(object), kind as u64, whole];
     Ok(singles.map(single).chain(doubles.into_iter().map(double)).chain(rest).collect())
 }
 

@@ -1,6 +1,6 @@
 use crate::Soup;
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
-use umbrage_plane::{Facet, Facing, SurfacePoint, View};
+use umbrage_plane::{Cells, Facet, Facing, SurfacePoint, View};
 use umbrage_raster::{BIN, Bins, each_fragment};
 
 /// A piece of one surface within one pixel: what is shaded once (R87-8).
@@ -41,8 +41,8 @@ pub(crate) struct Gather<'a> {
 }
 
 impl Gather<'_> {
-    /// The regions of a tile in pixel order, the number of fragments met, and how many of them were nearer than all before.
-    pub fn tile(&self, tile: UVec2) -> (Vec<Region>, u64, u64) {
+    /// The regions of a tile in pixel order, for the pixels that are `wanted`, the number of fragments met, and how many of them were nearer than all before.
+    pub fn tile(&self, tile: UVec2, wanted: impl Fn(u32) -> bool) -> (Vec<Region>, u64, u64) {
         let origin = (tile * BIN).as_ivec2();
         let mut facets: Vec<Facet> = Vec::new();
         let mut samples = vec![NONE; (BIN * BIN) as usize];
@@ -66,10 +66,13 @@ impl Gather<'_> {
         });
         let mut regions = Vec::new();
         if !facets.is_empty() {
-            let across = BIN / self.axis;
+            let (across, picture) = (BIN / self.axis, self.view.size() / self.axis);
             for pixel in 0..across * across {
                 let corner = UVec2::new(pixel % across, pixel / across) * self.axis;
-                self.pixel(origin, corner, pixel, &samples, &facets, &mut regions);
+                let place = (origin.as_uvec2() + corner) / self.axis;
+                if place.cmplt(picture).all() && wanted(place.y * self.width + place.x) {
+                    self.pixel(origin, corner, pixel, &samples, &facets, &mut regions);
+                }
             }
         }
         (regions, fragments, passing)
@@ -84,24 +87,29 @@ impl Gather<'_> {
         facets: &[Facet],
         regions: &mut Vec<Region>,
     ) {
-        let mut groups: Vec<(Surface, Vec<(DVec2, u32)>)> = Vec::new();
+        let mut groups: Vec<(Surface, Cells, Vec<(DVec2, u32)>)> = Vec::new();
         for i in 0..self.axis * self.axis {
-            let at = corner + UVec2::new(i % self.axis, i / self.axis);
+            let cell = UVec2::new(i % self.axis, i / self.axis);
+            let at = corner + cell;
             let sample = samples[(at.y * BIN + at.x) as usize];
             let Some(facet) = facets.get(sample.facet as usize) else { continue };
             let position = self.view.sampling().position(origin + at.as_ivec2());
             let surface = Surface::of(self.soup, facet);
-            let group = groups.iter_mut().find(|(known, _)| *known == surface && !self.every_sample);
+            let group = groups.iter_mut().find(|(known, ..)| *known == surface && !self.every_sample);
+            let covered = |cells: Cells| cells.with(cell.x, cell.y, self.axis);
             match group {
-                Some((_, members)) => members.push((position, sample.facet)),
-                None => groups.push((surface, vec![(position, sample.facet)])),
+                Some((_, cells, members)) => {
+                    *cells = covered(*cells);
+                    members.push((position, sample.facet));
+                }
+                None => groups.push((surface, covered(Cells::NONE), vec![(position, sample.facet)])),
             }
         }
         let middle = (origin.as_dvec2() + corner.as_dvec2()) + f64::from(self.axis) * 0.5;
         let place = (origin / self.axis as i32).as_uvec2() + corner / self.axis;
         let name = (place.y * self.width + place.x).wrapping_mul(64);
         let all = (self.axis * self.axis) as usize;
-        for (index, (surface, members)) in groups.iter().enumerate() {
+        for (index, (surface, cells, members)) in groups.iter().enumerate() {
             let centre = if members.len() == all && !self.every_sample {
                 middle
             } else {
@@ -115,6 +123,7 @@ impl Gather<'_> {
             if let Some(&(position, facet)) = nearest {
                 let mut region = self.region(&facets[facet as usize], surface.front, centre, position);
                 region.point.region = name.wrapping_add(index as u32);
+                region.point.cells = if self.every_sample { Cells::ALL } else { *cells };
                 regions.push(Region { share, pixel, ..region });
             }
         }

@@ -96,6 +96,17 @@ pub struct Picture {
 ///
 /// Lights beyond the end of `shadows`, and those that do not cast ([`umbrage_scene::Light::casts`]), have no shadow.
 pub fn picture(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame) -> Picture {
+    picture_where(scene, shadows, frame, |_| true)
+}
+
+/// [`picture`], of which only some pixels are drawn: those whose index, row · width + column, `wanted` accepts. The others are left as background that nobody looked
+/// at. Pixels that are drawn are the same in both.
+pub fn picture_where(
+    scene: &Scene,
+    shadows: &[&dyn Shadow],
+    frame: &Frame,
+    wanted: impl Fn(u32) -> bool + Sync,
+) -> Picture {
     let axis = frame.axis_for(&scene.camera);
     let view = frame.sample_view(&scene.camera);
     let soup = Soup::all(scene, &scene.camera);
@@ -108,7 +119,7 @@ pub fn picture(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame) -> Picture
         .into_par_iter()
         .map(|index| {
             let tile = UVec2::new(index % tiles.x, index / tiles.x);
-            (tile * (BIN / axis), finish_tile(scene, shadows, frame, &gather, tile))
+            (tile * (BIN / axis), finish_tile(scene, shadows, frame, gather.tile(tile, &wanted)))
         })
         .collect();
     let mut picture = Picture::empty(scene, size);
@@ -151,8 +162,12 @@ struct TileOut {
     regions: u64,
 }
 
-fn finish_tile(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame, gather: &Gather, tile: UVec2) -> TileOut {
-    let (regions, fragments, passing) = gather.tile(tile);
+fn finish_tile(
+    scene: &Scene,
+    shadows: &[&dyn Shadow],
+    frame: &Frame,
+    (regions, fragments, passing): (Vec<Region>, u64, u64),
+) -> TileOut {
     let point = |region: &Region| {
         let normal = if frame.smooth { region.shading_normal } else { region.point.normal };
         SurfacePoint { normal, ..region.point }

@@ -3,7 +3,7 @@
 use glam::{DVec3, UVec2, Vec3};
 use std::sync::Mutex;
 use umbrage_plane::{SurfacePoint, View};
-use umbrage_render::{Frame, NOTHING, picture};
+use umbrage_render::{Frame, NOTHING, picture, picture_where};
 use umbrage_sample::Key;
 use umbrage_scene::{Light, Material, Mesh, Object, Scene, gallery};
 use umbrage_shadow::Shadow;
@@ -57,6 +57,46 @@ fn x4_one_region_a_surface_and_pixel_with_its_share_of_the_samples() {
     names.sort_unstable();
     names.dedup();
     assert_eq!(names.len(), regions.len(), "every region has a name of its own");
+}
+
+#[test]
+fn the_surfaces_of_a_pixel_share_its_cells() {
+    let (scene, asked) = (boards(), Asked::default());
+    picture(&scene, &[&asked], &Frame { axis: 4, stochastic: false, ..Frame::default() });
+    let regions = asked.0.into_inner().unwrap();
+    let shares = |region: &SurfacePoint| -> Vec<f32> { (0..4).map(|x| region.cells.share(x, 2, 4)).collect() };
+    let mut split = 0;
+    for region in &regions {
+        let others: Vec<_> = regions.iter().filter(|other| other.region >> 6 == region.region >> 6).collect();
+        match others.as_slice() {
+            // Of the columns of samples at 1/8, 3/8, 5/8 and 7/8, the nearer board has those left of 1/3.
+            [near, far] => {
+                split += 1;
+                assert_eq!((shares(near), shares(far)), (vec![1.0, 0.0, 0.0, 0.0], vec![0.0, 1.0, 1.0, 1.0]));
+                // Where the cells have their centroid, there the region is.
+                let middle = |region: &SurfacePoint| region.position.x - 0.5 * region.cells.centroid().x;
+                assert!((middle(near) - middle(far)).abs() < 1e-6 && (middle(near) + 2.5).abs() < 1e-6);
+            }
+            _ => assert!(region.cells.is_whole()),
+        }
+    }
+    assert_eq!(split, 2 * 16);
+    let again = Asked::default();
+    picture(&scene, &[&again], &Frame { axis: 4, every_sample: true, ..Frame::default() });
+    assert!(again.0.into_inner().unwrap().iter().all(|region| region.cells.is_whole()));
+}
+
+#[test]
+fn pixels_that_are_wanted_are_the_same_in_a_part_of_the_picture() {
+    let (scene, frame) = (boards(), Frame { axis: 2, ..Frame::default() });
+    let (all, some) = (picture(&scene, &[], &frame), picture_where(&scene, &[], &frame, |pixel| pixel % 3 == 0));
+    for i in 0..all.share.len() {
+        if i % 3 == 0 {
+            assert_eq!((all.colour[i], all.share[i], all.depth[i]), (some.colour[i], some.share[i], some.depth[i]));
+        } else {
+            assert_eq!((some.colour[i], some.object[i]), (scene.background, NOTHING));
+        }
+    }
 }
 
 #[test]

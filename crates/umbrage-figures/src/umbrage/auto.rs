@@ -1,16 +1,11 @@
 //! Our own: what the default is made of, and what it costs, against rays.
 
+use super::judge::{Error, Judge};
 use super::methods::row;
 use crate::figure::{Context, Figure, Paper};
-use crate::stage::masks::{shadow_grid, value};
 use crate::stage::panels::{error_panel, shadow_panel, truth_panel, zoomed};
-use crate::stage::set::Set;
 use glam::DVec2;
-use std::sync::Arc;
-use umbrage_depth::DepthMap;
-use umbrage_oracle::metrics;
-use umbrage_recipe::Recipe;
-use umbrage_render::{Frame, Picture, light_map};
+use umbrage_render::Frame;
 use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::{Made, Measure, Role, Table};
 use umbrage_scene::gallery::{self, Make};
@@ -39,6 +34,10 @@ pub(super) const MIX: &str = "wang-molnar94,stored=midpoint,pattern=tent";
 /// So many recipes of the ladder, the first, are controls.
 const CONTROLS: usize = 2;
 
+/// A camera of 4 × 4 samples for each pixel, to see which surfaces it holds. One look-up is made for each of them.
+pub(super) const SAMPLED: Frame =
+    Frame { axis: 4, stochastic: false, every_sample: false, smooth: false, seed: 0, number: 0 };
+
 /// What each part adds, in turn, after the controls.
 const LADDER: [(&str, &str); 7] = [
     ("Woo 1992", "woo92"),
@@ -49,57 +48,6 @@ const LADDER: [(&str, &str); 7] = [
     ("and links of 16 slots: auto", "auto"),
     ("and 8 × 8 places", "auto,across=8"),
 ];
-
-/// A picture against 64 rays per pixel.
-#[derive(Clone, Copy)]
-pub(super) struct Error {
-    /// Root mean square over pixels that see one surface, facing the light.
-    pub rms: f64,
-    /// Share of those more than three pixels from truth's edges that are wrong by more than a half.
-    pub wrong: f64,
-}
-
-/// A scene, its truth, and which pixels are judged.
-pub(super) struct Judge {
-    pub set: Set,
-    pub truth: Arc<Picture>,
-    seen: Vec<bool>,
-    /// Those of them that are far from truth's edges.
-    sure: Vec<bool>,
-}
-
-impl Judge {
-    pub fn new(cx: &Context, make: Make, pixels: u32, texels: u32) -> Self {
-        const FACING: f32 = 0.02;
-        let set = Set::new(make(), pixels, texels);
-        let truth = set.truth(cx);
-        let centre = set.plain(cx, &Frame::CENTRES);
-        // One surface: all samples are of one object and face the light as the centre does.
-        let one = |i: usize| truth.share[i] == 1.0 && (truth.facing[0][i] - centre.facing[0][i]).abs() < FACING;
-        let seen: Vec<bool> = (0..truth.share.len()).map(|i| one(i) && truth.facing[0][i] > FACING).collect();
-        let lit = metrics::lit_mask(shadow_grid(&truth), &truth.facing[0], 3, FACING);
-        let dark = metrics::dark_mask(shadow_grid(&truth), &truth.facing[0], 3, FACING);
-        let far: Vec<bool> = lit.iter().zip(&dark).map(|(lit, dark)| *lit || *dark).collect();
-        let sure = metrics::both(&far, &seen);
-        Self { set, truth, seen, sure }
-    }
-
-    pub fn error(&self, picture: &Picture) -> Error {
-        let (own, exact) = (&picture.shadow[0], &self.truth.shadow[0]);
-        let sure = || (0..own.len()).filter(|&i| self.sure[i]);
-        let wrong = sure().filter(|&i| (own[i] - exact[i]).abs() > 0.5).count();
-        Error { rms: value(metrics::rms(own, exact, &self.seen)), wrong: wrong as f64 / sure().count().max(1) as f64 }
-    }
-
-    /// A recipe's picture, and all bytes of its map for each texel.
-    pub fn by(&self, cx: &Context, recipe: &str, frame: &Frame) -> anyhow::Result<(Picture, f64)> {
-        let recipe: Recipe = recipe.parse()?;
-        let view = &self.set.scene.lights[0].view;
-        let map = light_map(&recipe, &self.set.scene, view);
-        let bytes = map.clone().kept(cx.storage).allocated() as f64 / f64::from(view.size().element_product());
-        Ok((self.set.draw(cx, &*recipe.bind(map, cx.storage)?, frame), bytes))
-    }
-}
 
 pub(super) fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
     values.clone().sum::<f64>() / values.count().max(1) as f64
@@ -125,12 +73,12 @@ fn shown(cx: &Context) -> anyhow::Result<Made> {
         let (picture, bytes) = judge.by(cx, recipe, &Frame::CENTRES)?;
         found.push((judge.error(&picture), bytes));
         made.panels.push(shadow_panel(id, caption, &picture).with("recipe", recipe).against("truth"));
-        let (own, truth) = (&picture.shadow[0], &judge.truth.shadow[0]);
+        let (own, truth) = (&picture.shadow[0], &judge.truth().shadow[0]);
         made.panels.push(error_panel(&format!("{id}-error"), "Less truth", picture.size, own, truth));
         made.panels.push(zoomed(&format!("{id}-zoom"), "Enlarged", &picture, MIDDLE, PART));
     }
-    made.panels.push(truth_panel(&judge.truth));
-    made.panels.push(zoomed("truth-zoom", "Enlarged", &judge.truth, MIDDLE, PART).role(Role::Truth));
+    made.panels.push(truth_panel(judge.truth()));
+    made.panels.push(zoomed("truth-zoom", "Enlarged", judge.truth(), MIDDLE, PART).role(Role::Truth));
     let texels = f64::from(judge.set.scene.lights[0].view.size().element_product());
     made.measures = vec![
         Measure::at_most("auto: error", found[1].0.rms, "rms", 0.012),
@@ -139,7 +87,7 @@ fn shown(cx: &Context) -> anyhow::Result<Made> {
         Measure::info("auto: kilobytes", found[1].1 * texels / 1024.0, "KB"),
         Measure::info("Woo: kilobytes", found[0].1 * texels / 1024.0, "KB"),
     ];
-    made.note = "One look-up for each pixel; truth is the mean of 64 rays.".into();
+    made.note = "One look-up for each pixel; truth is the mean of 256 rays.".into();
     Ok(made)
 }
 
@@ -156,10 +104,12 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
     let mut made = Made::default();
     let mut found = vec![Vec::new(); LADDER.len()];
     let mut smaller = [Vec::new(), Vec::new()];
-    let (mut exact, mut bytes) = (Vec::new(), Vec::new());
+    let mut sampled: [Vec<Error>; 2] = Default::default();
+    let (mut exact, mut bytes, mut noise) = (Vec::new(), Vec::new(), Vec::new());
     for (_, make) in STAGES {
         let judge = Judge::new(cx, make, pixels, texels);
         exact.push(judge.error(&judge.set.truth_points(cx, &Frame::CENTRES)));
+        noise.push(judge.noise());
         for (step, (_, recipe)) in LADDER.iter().enumerate() {
             let (picture, kept) = judge.by(cx, recipe, &Frame::CENTRES)?;
             found[step].push(judge.error(&picture));
@@ -167,23 +117,33 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
                 bytes.push(kept);
             }
         }
+        for (recipe, errors) in ["auto", "auto,across=8"].into_iter().zip(&mut sampled) {
+            errors.push(judge.error(&judge.by(cx, recipe, &SAMPLED)?.0));
+        }
         for (divisor, errors) in [2, 4].into_iter().zip(&mut smaller) {
-            let judge = Judge::new(cx, make, pixels, texels / divisor);
+            let judge = judge.with_texels(texels / divisor);
             errors.push(judge.error(&judge.by(cx, "auto", &Frame::CENTRES)?.0));
         }
     }
     let head = || ["error, rms"].into_iter().chain(STAGES.iter().map(|stage| stage.0)).chain(["mean"]);
     let head = head().map(String::from).collect();
-    let line = |name: &str, errors: &[Error]| {
-        let all = errors.iter().map(|error| error.rms);
-        row(name, all.clone().chain([mean(all)]))
-    };
+    let with_mean = |name: &str, all: Vec<f64>| row(name, all.iter().copied().chain([mean(all.iter().copied())]));
+    let line = |name: &str, errors: &[Error]| with_mean(name, errors.iter().map(|error| error.rms).collect());
+    let several = |name: &str, errors: &[Error]| with_mean(name, errors.iter().map(|error| error.several).collect());
+    let auto = LADDER.iter().position(|(_, recipe)| *recipe == "auto").unwrap_or(0);
     let mut rows = vec![line("one exact ray at the centre", &exact)];
     rows.extend(LADDER.iter().zip(&found).map(|((name, _), errors)| line(name, errors)));
+    rows.push(line("auto, the camera with 4 × 4 samples", &sampled[0]));
+    rows.push(line("and 8 × 8 places", &sampled[1]));
     for (size, errors) in ["half the size", "a quarter of the size"].into_iter().zip(&smaller) {
         rows.push(line(&format!("auto over maps of {size}"), errors));
     }
-    rows.push(row("auto: bytes for each texel", bytes.iter().copied().chain([mean(bytes.iter().copied())])));
+    rows.push(several("pixels of several surfaces too: one exact ray", &exact));
+    rows.push(several("pixels of several surfaces too: auto", &found[auto]));
+    rows.push(several("pixels of several surfaces too: auto, the camera with 4 × 4 samples", &sampled[0]));
+    rows.push(several("and 8 × 8 places", &sampled[1]));
+    rows.push(with_mean("truth: half of its rays less the other half", noise.clone()));
+    rows.push(with_mean("auto: bytes for each texel", bytes.clone()));
     made.tables.push(Table { name: "errors".into(), head, rows });
     let rms = |step: usize| mean(found[step].iter().map(|error| error.rms));
     let ray = mean(exact.iter().map(|error| error.rms));
@@ -199,8 +159,9 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
         plot = plot.add(Series::line(name, level(rms)));
     }
     made.plots.push(("ladder".into(), plot.svg()));
-    let auto = LADDER.iter().position(|(_, recipe)| *recipe == "auto").unwrap_or(0);
     let small = |which: usize| mean(smaller[which].iter().map(|error| error.rms));
+    let sampled_mean = |which: usize| mean(sampled[which].iter().map(|error| error.rms));
+    let sampled_several = |which: usize| mean(sampled[which].iter().map(|error| error.several));
     let wrong = |step: usize| mean(found[step].iter().map(|error| error.wrong));
     made.measures = vec![
         Measure::at_most("auto, 512²: error, mean of all scenes", rms(auto), "rms", 0.009).full_size(cx.quick),
@@ -214,13 +175,23 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
             .full_size(cx.quick),
         Measure::at_most("auto: bytes for each texel, most", bytes.iter().copied().fold(0.0, f64::max), "bytes", 9.0)
             .full_size(cx.quick),
+        Measure::at_most(
+            "truth: half of its rays less the other half, mean",
+            mean(noise.iter().copied()),
+            "rms",
+            0.003,
+        )
+        .full_size(cx.quick),
+        Measure::at_most("camera with 4 × 4 samples: error, mean of all scenes", sampled_mean(0), "rms", 0.009)
+            .full_size(cx.quick),
+        Measure::info("camera with 4 × 4 samples, several surfaces too: error, mean", sampled_several(0), "rms"),
         Measure::info("8 × 8 places: error, mean of all scenes", rms(LADDER.len() - 1), "rms"),
         Measure::info("papers' best mixture: error, mean of all scenes", rms(1), "rms"),
         Measure::info("one exact ray: error, mean of all scenes", ray, "rms"),
     ];
-    made.note = "Judged are pixels all of whose samples see one surface that faces the light; truth is the mean of 64 rays, one look-up is made for each \
-                 pixel, and no parameter is set for a scene. A pixel that sees two surfaces is asked about one of them; with more visibility samples each \
-                 surface is asked about."
+    made.note = "Judged are pixels all of whose samples see one surface that faces the light, and in lines that say so those that see several, too; truth is \
+                 the mean of 256 rays, and no parameter is set for a scene. One look-up is made for each pixel, or for each surface that a camera of \
+                 4 × 4 samples sees in it."
         .into();
     Ok(made)
 }

@@ -1,6 +1,7 @@
 //! Our own: the default on kinds of scenes that shadow maps find hard.
 
-use super::auto::{Error, Judge, MIX, mean};
+use super::auto::{MIX, mean};
+use super::judge::{Error, Judge};
 use super::methods::row;
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::panels::{error_panel, shadow_panel};
@@ -49,7 +50,7 @@ fn kinds(cx: &Context) -> anyhow::Result<Made> {
     for (name, variants) in STAGES {
         for (variant, make) in variants.into_iter().enumerate() {
             let judge = Judge::new(cx, make, pixels, 512);
-            let small = Judge::new(cx, make, pixels, 256);
+            let small = judge.with_texels(256);
             let ray = judge.error(&judge.set.truth_points(cx, &Frame::CENTRES)).rms;
             let mut numbers = vec![ray];
             for (column, (_, recipe, side)) in COLUMNS.iter().enumerate() {
@@ -60,11 +61,11 @@ fn kinds(cx: &Context) -> anyhow::Result<Made> {
                 found[column].push((error, bytes));
                 if column == AUTO {
                     let id = format!("{name}-{variant}");
-                    let (own, truth) = (&picture.shadow[0], &judge.truth.shadow[0]);
+                    let (own, truth) = (&picture.shadow[0], &judge.truth().shadow[0]);
                     made.panels.push(shadow_panel(&id, name, &picture).with("recipe", recipe));
                     made.panels.push(error_panel(&format!("{id}-error"), "Less truth", picture.size, own, truth));
                     made.panels
-                        .push(shadow_panel(&format!("{id}-truth"), "Ray-traced", &judge.truth).role(Role::Truth));
+                        .push(shadow_panel(&format!("{id}-truth"), "Ray-traced", judge.truth()).role(Role::Truth));
                     numbers.extend([error.wrong, bytes]);
                 }
             }

@@ -4,6 +4,7 @@ mod area;
 mod auto;
 mod curves;
 mod faults;
+mod judge;
 mod kinds;
 mod matrix;
 mod methods;

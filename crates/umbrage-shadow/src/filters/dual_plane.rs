@@ -5,7 +5,7 @@ use crate::{Filter, OnPlane, Probe, Query};
 use fearless_simd::Simd;
 use glam::{DVec2, IVec2, Vec2};
 use umbrage_depth::{DepthMap, FacetSample, FacetSource, Facets};
-use umbrage_plane::{Affine, TexelRect, View};
+use umbrage_plane::{Affine, Cells, TexelRect, View};
 use umbrage_sample::EveryTexel;
 
 /// Shadow without a bias over a map of facets ([`FacetMap`](umbrage_depth::FacetMap)): the receiver's tangent plane is compared with the caster's own plane, and edges run
@@ -15,7 +15,7 @@ use umbrage_sample::EveryTexel;
 /// the place itself: convex folds pass the first test, concave folds the second. What both must pass by is not a bias but what a sample cannot
 /// know: half a sample's width and a quarter of the gentler slope over it. Of the four samples around a place that disagree, the
 /// map's links say where between two of them the surface changes, and marching squares where the edge runs. A region is the mean of
-/// `across` × `across` places.
+/// `across` × `across` places, of those that are its [surface](Cells).
 ///
 /// Umbrage's own. Casters' planes are after Dou et al. 2014, edges in texels after Sen, Cammarano & Hanrahan 2003.
 /// Over a map that knows no facets it compares the receiver's plane at every texel of its region, which is the best that such a map can give.
@@ -87,8 +87,12 @@ struct Asked<'a, F: ?Sized> {
     plane: Affine,
     steep: f64,
     texel: DVec2,
-    /// Half-axes of the region, texels.
+    /// The middle of the region's parallelogram, its half-axes, texels, and what of it is the surface.
+    middle: DVec2,
     axes: [DVec2; 2],
+    cells: Cells,
+    /// The middle and the half-axes of the part that holds the surface.
+    part: (DVec2, [DVec2; 2]),
     across: u32,
     /// What a sample of one texel's width must be passed by for its width, as a key, and for each unit of slope.
     width: f64,
@@ -146,7 +150,15 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
         let plane = view.affine(receiver.eye, receiver.normal).unwrap_or_else(|| Affine::constant(view.key(zeta)));
         let most = view.size().as_dvec2() * 0.125;
         let axes = receiver.axes.map(|axis| axis.as_dvec2().clamp(-most, most));
-        let wide = 2.0 * axes[0].length_squared().max(axes[1].length_squared()).sqrt();
+        let cells = receiver.cells;
+        let (middle, part) = if cells.is_whole() {
+            (receiver.texel, (receiver.texel, axes))
+        } else {
+            let along = |at: DVec2| axes[0] * at.x + axes[1] * at.y;
+            let (middle, (at, half)) = (receiver.texel - along(cells.centroid()), cells.bounds());
+            (middle, (middle + along(at), [axes[0] * half.x, axes[1] * half.y]))
+        };
+        let wide = 2.0 * part.1[0].length_squared().max(part.1[1].length_squared()).sqrt();
         let texel = receiver.texel_world.as_dvec2();
         Self {
             map,
@@ -154,7 +166,10 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
             plane,
             steep: plane.dx.abs() + plane.dy.abs(),
             texel: receiver.texel,
+            middle,
             axes,
+            cells,
+            part,
             across: if wide == 0.0 { 1 } else { filter.across.max(1) },
             width: filter.width_term * (texel.x * texel.y).sqrt() * view.key_per_world(zeta),
             slope: filter.slope_term,
@@ -166,15 +181,16 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
     /// The fraction in shadow, and how many samples were looked at.
     #[inline(always)]
     fn fraction(&self) -> (f32, u32) {
-        let reach = self.axes[0].abs() + self.axes[1].abs();
+        let (centre, axes) = self.part;
+        let reach = axes[0].abs() + axes[1].abs();
         let fine = f64::from(self.map.fine());
         let corner = |at: DVec2| (at * fine - 0.5).floor();
-        let (low, high) = (corner(self.texel - reach), corner(self.texel + reach) + 2.0);
+        let (low, high) = (corner(centre - reach), corner(centre + reach) + 2.0);
         if !(low.abs().max_element() < FAR && high.abs().max_element() < FAR) {
             return (self.places(false, |_| false), 0);
         }
         let rect = TexelRect::new(low.as_ivec2(), high.as_ivec2());
-        let inside = self.view.holds(self.texel.as_vec2(), reach.as_vec2());
+        let inside = self.view.holds(centre.as_vec2(), reach.as_vec2());
         let wide = (high - low).max_element();
         let small = wide <= f64::from(AT_HAND);
         if inside && wide <= MOST_AGREED * fine {
@@ -191,13 +207,14 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
     #[inline(always)]
     fn agreed(&self, rect: TexelRect) -> (Option<bool>, u32) {
         let (mut lit, mut dark, mut looked) = (true, true, 0);
+        let (centre, axes) = self.part;
         self.map.each_sample(rect, &mut |sample| {
             looked += 1;
             let voter = self.voter(sample);
-            let middle = voter.behind.at(self.texel);
+            let middle = voter.behind.at(centre);
             let along = |axis: DVec2| (voter.behind.dx * axis.x + voter.behind.dy * axis.y).abs();
             // A little more than the region, so that no rounding decides.
-            let spread = (along(self.axes[0]) + along(self.axes[1])) * (1.0 + 1e-9);
+            let spread = (along(axes[0]) + along(axes[1])) * (1.0 + 1e-9);
             dark &= voter.there > 0.0 && middle - spread > 0.0;
             lit &= voter.there <= 0.0 || middle + spread <= 0.0;
             dark || lit
@@ -225,17 +242,25 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
     fn places(&self, inside: bool, mut dark: impl FnMut(DVec2) -> bool) -> f32 {
         let across = self.across;
         let offset = |i: u32| f64::from(2 * i + 1) / f64::from(across) - 1.0;
-        let mut sum = 0.0;
+        let mut answer = |at: DVec2| {
+            let ruled = if inside { None } else { answer(self.view.rules().verdict(self.view.locate(at.as_vec2()))) };
+            ruled.unwrap_or_else(|| f32::from(u8::from(dark(at))))
+        };
+        if across == 1 {
+            return answer(self.texel);
+        }
+        let (mut sum, mut all) = (0.0, 0.0);
         for j in 0..across {
-            let row = self.texel + self.axes[1] * offset(j);
+            let row = self.middle + self.axes[1] * offset(j);
             for i in 0..across {
-                let at = row + self.axes[0] * offset(i);
-                let ruled =
-                    if inside { None } else { answer(self.view.rules().verdict(self.view.locate(at.as_vec2()))) };
-                sum += ruled.unwrap_or_else(|| f32::from(u8::from(dark(at))));
+                let share = self.cells.share(i, j, across);
+                if share > 0.0 {
+                    all += share;
+                    sum += share * answer(row + self.axes[0] * offset(i));
+                }
             }
         }
-        sum / (across * across) as f32
+        if all > 0.0 { sum / all } else { answer(self.texel) }
     }
 
     /// A large region: the map is asked anew for each place.

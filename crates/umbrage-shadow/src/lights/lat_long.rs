@@ -92,6 +92,7 @@ impl<P: Pattern> LatLong<P> {
             footprint,
             texel: centre,
             axes: footprint.axes(),
+            cells: at.cells,
             depth: distance as f32,
             texel_world: (step * DVec2::new(2.0 * level, 1.0)).as_vec2(),
             facing: facing as f32,
