@@ -33,6 +33,7 @@ mod around;
 mod batch;
 mod builders;
 mod cells;
+mod fitted;
 mod footprint;
 mod look;
 mod named;

@@ -3,13 +3,27 @@
 //! What a recipe chooses stays data down to the filter ([`AnyPattern`], [`AnyDepth`](umbrage_shadow::AnyDepth)), so that each filter is
 //! compiled once.
 
-use crate::PresetName;
 use crate::values::{PatternName, Values};
+use crate::{PresetName, RecipeError};
 use umbrage_depth::{Map, Storage};
 use umbrage_sample::{
     AnyPattern, Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Tent, Uniform,
 };
-use umbrage_shadow::{Conditional, Filter, FilteredDepth, IntegerFirst, Pcf, Shadow, ShadowMap, Soft, Williams};
+use umbrage_shadow::{
+    Around, Conditional, DualPlane, Filter, FilteredDepth, IntegerFirst, Pcf, Shadow, ShadowMap, Soft, Williams,
+};
+
+/// A filter over the maps around one light; a single map needs none beside it.
+pub(crate) fn around(filter: DualPlane, mut maps: Vec<Map>) -> Result<Box<dyn Shadow>, RecipeError> {
+    match (maps.len(), maps.pop()) {
+        (1, Some(map)) => Ok(over(filter, map)),
+        (_, last) => {
+            maps.extend(last);
+            let around = Around::new(filter, maps);
+            Ok(Box::new(around.map_err(|error| RecipeError::value("views", "around", error.to_string()))?))
+        }
+    }
+}
 
 /// Puts a filter over a map in the storage that is asked for. A filter expects no surface in particular; a [`Recipe`](crate::Recipe) does.
 pub fn bind<F: Filter + 'static>(filter: F, map: impl Into<Map>, storage: Storage) -> Box<dyn Shadow> {

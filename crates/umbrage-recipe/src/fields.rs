@@ -1,7 +1,7 @@
 //! The rows of the table.
 
 use crate::kind::Value;
-use crate::values::{DepthName, PatternName, Rule};
+use crate::values::{DepthName, PatternName, Rule, Window};
 use crate::{Field, Kind, PresetName};
 use umbrage_depth::SameSurface;
 use umbrage_plane::Bias;
@@ -168,12 +168,12 @@ pub const FIELDS: &[Field] = &[
         "radius of a disc light, world units (tangent of its angle if directional): the mean of `maps` maps",
         ""
     ),
-    plain!(
+    optional!(
         "maps",
         AUTO,
         Kind::Whole(1024),
         |values| values.maps,
-        "with `light`: points of the disc, each with a map",
+        "with `light`: points of the disc, each with a map; otherwise 8 to 64, by the width of its penumbra",
         ""
     ),
     words!(
@@ -579,6 +579,14 @@ pub const FIELDS: &[Field] = &[
         |values| values.dither.depth,
         "full range of a displacement in depth, map units",
         "Williams 1978"
+    ),
+    words!(
+        "window",
+        &PresetName::ALL,
+        [("given", Window::Given), ("fitted", Window::Fitted)],
+        |values| values.window,
+        "what a map shows: what the light's view does, or of it what is about the points that will be asked about",
+        ""
     ),
 ];
 

@@ -1,11 +1,11 @@
 use crate::bake::Moment;
-use crate::values::Values;
+use crate::values::{Values, Window};
 use crate::{PresetName, RecipeError, kind};
 use umbrage_bake::Caster;
 use umbrage_depth::{DepthMap, Map, Midpoint, Storage, Stored};
 use umbrage_plane::{Bias, View};
 use umbrage_raster::Stats;
-use umbrage_shadow::{DiscLight, Mean, Shadow};
+use umbrage_shadow::Shadow;
 
 /// A shadow algorithm by name, as people write it: a preset and what differs from it, such as
 /// `reeves87,samples=16,res-factor=3,bias=0.3..0.4`. Which surface is stored, where one looks and which depth is compared are chosen one by one:
@@ -88,6 +88,12 @@ impl Recipe {
         self.values.biased.low
     }
 
+    /// Whether its maps are laid about the points that will be asked about ([`LightUse::receivers`](crate::LightUse::receivers)).
+    #[must_use]
+    pub fn is_fitted(&self) -> bool {
+        self.values.window == Window::Fitted
+    }
+
     /// Half-extent of the smallest region that the filter looks at, texels; 0 for one texel.
     #[must_use]
     pub fn least_half(&self) -> f32 {
@@ -140,43 +146,6 @@ impl Recipe {
         self.values.bake(view, &mut moments.into_iter().map(casters))
     }
 
-    /// The views that the recipe wants maps of for a light of a view: that view, or several over a light that has a size. [`Recipe::bind_all`] takes
-    /// their maps.
-    ///
-    /// # Errors
-    /// When no view can stand at a point of the light.
-    pub fn views(&self, view: &View) -> Result<Vec<View>, RecipeError> {
-        match self.values.light {
-            Some(radius) if self.preset == PresetName::Auto => {
-                view.over_disc(f64::from(radius), self.values.maps).map_err(|error| {
-                    RecipeError::value("light", &radius.to_string(), format!("a light of that size: {error}"))
-                })
-            }
-            _ => Ok(vec![*view]),
-        }
-    }
-
-    /// The algorithm over the maps of all its [`views`](Self::views) of a light that is seen as `centre`.
-    ///
-    /// # Errors
-    /// As [`Recipe::bind`].
-    pub fn bind_all(
-        &self,
-        centre: &View,
-        maps: impl IntoIterator<Item: Into<Map>>,
-        storage: Storage,
-    ) -> Result<Box<dyn Shadow>, RecipeError> {
-        let one = Self { values: Values { light: None, ..self.values }, ..*self };
-        let sized = self.preset == PresetName::Auto && self.values.light.is_some();
-        let bind = if sized { &one } else { self };
-        let mut all: Vec<Box<dyn Shadow>> =
-            maps.into_iter().map(|map| bind.bind(map, storage)).collect::<Result<_, _>>()?;
-        if !sized && all.len() == 1 {
-            return Ok(all.remove(0));
-        }
-        Ok(Box::new(DiscLight { centre: *centre, mean: Mean(all) }))
-    }
-
     /// The algorithm over a map.
     ///
     /// # Errors
@@ -188,7 +157,7 @@ impl Recipe {
             return Err(RecipeError::value("map", map.stored().name(), expected));
         }
         if let (PresetName::Auto, Some(radius)) = (self.preset, self.values.light) {
-            let expected = "none over one map: bake each of the recipe's views, and bind them all";
+            let expected = "none over one map: shadow_of makes one for each of its points";
             return Err(RecipeError::value("light", &radius.to_string(), expected));
         }
         let (expected, found) = (self.expects(), map.stored());

@@ -55,6 +55,15 @@ pub enum DepthName {
     Cone,
 }
 
+/// Where a light's map is laid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Window {
+    /// As the light's view has it.
+    Given,
+    /// About the points that will be asked about.
+    Fitted,
+}
+
 /// All that fields can say, whether a recipe's own filter asks for it or not. What it does not ask for stays as the preset has it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Values {
@@ -93,8 +102,9 @@ pub struct Values {
     pub dither: Dither,
     pub refinement: Refinement,
     pub dual: DualPlane,
-    /// Points of a light with a size.
-    pub maps: u32,
+    /// Points of a light with a size, where they are given.
+    pub maps: Option<u32>,
+    pub window: Window,
 }
 
 impl Values {
@@ -175,7 +185,8 @@ impl Values {
             dither: williams.dither,
             refinement: Refinement::default(),
             dual: DualPlane::default(),
-            maps: 16,
+            maps: None,
+            window: Window::Given,
         }
     }
 
@@ -191,6 +202,11 @@ impl Values {
             Softness::Light { radius, nearest } => Self { light: Some(radius), nearest: Some(nearest), ..self },
         };
         Self { search, blur, falloff, shape: radius_gamma, opacity, rescue, ..parts }
+    }
+
+    /// The default's values for casters that let light pass.
+    pub fn deep(self) -> Self {
+        Self { rule: Rule::Deep, light: None, ..self }
     }
 
     /// The radii as they are meant together.

@@ -3,9 +3,9 @@
 use glam::{DVec3, UVec2, Vec3};
 use umbrage_bake::Caster;
 use umbrage_depth::{DepthMap, Map, Raw, Storage, Stored};
-use umbrage_plane::{SurfacePoint, View};
+use umbrage_plane::{SpotView, SurfacePoint, View};
 use umbrage_raster::Triangle;
-use umbrage_recipe::{PresetName, Recipe};
+use umbrage_recipe::{Keeps, LightShadow, LightUse, PresetName, Recipe};
 use umbrage_sample::Key;
 use umbrage_shadow::Shadow;
 
@@ -47,24 +47,141 @@ fn every_preset_bakes_the_map_it_expects_and_shadows_by_it() {
     }
 }
 
+/// All of a light by a recipe, over the boards at rest.
+fn light(text: &str, views: &[View], with: &LightUse<'_>) -> Result<LightShadow, String> {
+    recipe(text).shadow_of(views, with, |_, _| boards()).map_err(|error| error.to_string())
+}
+
 #[test]
 fn a_light_with_a_size_has_a_map_for_each_of_its_points() {
-    let sized = recipe("auto,light=0.5,maps=9");
-    let views = sized.views(&lamp()).unwrap();
-    assert_eq!((views.len(), recipe("auto").views(&lamp()).unwrap()), (9, vec![lamp()]));
-    assert_eq!(recipe("burley,light=0.5").views(&lamp()).unwrap().len(), 1);
-    let maps = || views.iter().map(|view| sized.bake(view, boards()));
-    let shadow = sized.bind_all(&lamp(), maps(), Storage::Tiled).unwrap();
+    let none = LightUse::default();
+    let sized = light("auto,light=0.5,maps=9", &[lamp()], &none).unwrap();
+    assert_eq!(sized.maps.iter().filter(|map| map.keeps == Keeps::Facets).count(), 9);
+    assert!(sized.to_string().starts_with("9 maps of facets, "), "{sized}");
+    assert_eq!(light("burley,light=0.5", &[lamp()], &none).unwrap().maps.len(), 1);
     // Well under the board, well beside it, and where the lamp's middle is just hidden.
-    assert_eq!((at(&*shadow, 0.1, 0.0), at(&*shadow, 6.1, 0.0)), (1.0, 0.0));
-    let row: Vec<f32> = (0..200).map(|i| at(&*shadow, 2.0 + i as f32 * 0.03, 0.0)).collect();
+    let shadow = &*sized.shadow;
+    assert_eq!((at(shadow, 0.1, 0.0), at(shadow, 6.1, 0.0)), (1.0, 0.0));
+    let row: Vec<f32> = (0..200).map(|i| at(shadow, 2.0 + i as f32 * 0.03, 0.0)).collect();
     assert!(row.windows(2).all(|pair| pair[1] <= pair[0] + 1e-6), "lighter toward the side");
     let levels = row.iter().filter(|dark| **dark > 0.0 && **dark < 1.0).count();
     assert!(levels > 3, "a penumbra: {row:?}");
-    let refused = sized.bind(maps().next().unwrap(), Storage::Tiled).err().map(|error| error.to_string());
+    let one = recipe("auto,light=0.5").bake(&lamp(), boards());
+    let refused = recipe("auto,light=0.5").bind(one, Storage::Tiled).err().map(|error| error.to_string());
     assert!(refused.unwrap().starts_with("light = \"0.5\": expected none over one map"));
-    let hard = recipe("auto").bind_all(&lamp(), [recipe("auto").bake(&lamp(), boards())], Storage::Tiled).unwrap();
-    assert_eq!(at(&*hard, 0.1, 0.0), 1.0);
+    let hard = light("auto", &[lamp()], &none).unwrap();
+    assert_eq!((at(&*hard.shadow, 0.1, 0.0), hard.maps.len(), hard.maps[0].view), (1.0, 1, lamp()));
+}
+
+#[test]
+fn a_light_has_as_many_points_as_its_penumbra_is_wide() {
+    // The board is 5 above the floor, and a texel a quarter wide: the penumbra of a tangent r is 40 r texels.
+    let count =
+        |radius: f32| light(&format!("auto,light={radius}"), &[lamp()], &LightUse::default()).unwrap().maps.len();
+    assert_eq!([0.001, 0.5, 1.2, 3.0, 90.0].map(count), [8, 16, 32, 64, 64]);
+    // Where only the board itself is looked at, there is none.
+    let board = [DVec3::new(0.0, 0.0, 5.0)];
+    let with = LightUse { receivers: Some(&board), ..LightUse::default() };
+    assert_eq!(light("auto,light=3", &[lamp()], &with).unwrap().maps.len(), 8);
+}
+
+#[test]
+fn a_fitted_window_needs_to_know_what_will_be_asked() {
+    let refused = light("woo92,window=fitted", &[lamp()], &LightUse::default()).unwrap_err();
+    assert_eq!(refused, "window = \"fitted\": expected given, where it is not known which points will be asked about");
+    let points = [(2.0, -1.0), (4.0, -1.0), (4.0, 1.0), (2.0, 1.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
+    let with = LightUse { receivers: Some(&points), ..LightUse::default() };
+    for text in ["auto,window=fitted", "woo92,window=fitted", "auto,window=fitted,light=0.1,maps=3"] {
+        let fitted = light(text, &[lamp()], &with).unwrap();
+        assert_eq!((at(&*fitted.shadow, 2.5, 0.0), at(&*fitted.shadow, 3.8, 0.0)), (1.0, 0.0), "{text}");
+        for map in &fitted.maps {
+            assert!(map.view.texel_world(1.0).max_element() < 0.06, "{text}: {}", map.view.texel_world(1.0));
+        }
+    }
+}
+
+#[test]
+fn of_several_moments_a_light_is_the_mean() {
+    let moved = |_: &View, moment: u32| -> Vec<Triangle> {
+        let by = DVec3::X * (f64::from(moment) * 1.0);
+        boards().into_iter().map(|one| Triangle { corners: one.corners.map(|at| at + by), ..one }).collect()
+    };
+    let with = LightUse { moments: 4, ..LightUse::default() };
+    let light = recipe("auto").shadow_of(&[lamp()], &with, moved).unwrap();
+    // The board's right side stands at 3, 4, 5 and 6.
+    let row = [2.5, 3.5, 4.5, 5.5, 6.5].map(|x| at(&*light.shadow, x, 0.0));
+    assert_eq!((row, light.maps.len()), ([1.0, 0.75, 0.5, 0.25, 0.0], 4));
+}
+
+#[test]
+fn casters_that_let_light_pass_are_kept_in_a_map_of_their_own() {
+    let glass = |_: &View, _: u32| {
+        let caster = |triangle: Triangle| {
+            let clear = if triangle.object == 0 { Vec3::new(0.5, 0.25, 0.0) } else { Vec3::ZERO };
+            Caster::from(triangle).with_passes(clear)
+        };
+        boards().into_iter().map(caster).collect::<Vec<_>>()
+    };
+    let light = recipe("auto").shadow_of(&[lamp()], &LightUse::default(), glass).unwrap();
+    assert_eq!(light.maps.iter().map(|map| map.keeps).collect::<Vec<_>>(), [Keeps::Facets, Keeps::Deep]);
+    assert!(light.to_string().starts_with("1 map of facets, 1 map of all surfaces, for casters that let light pass, "));
+    let point =
+        [SurfacePoint::at(Vec3::new(0.1, 0.1, 0.0), Vec3::Z), SurfacePoint::at(Vec3::new(5.1, 0.1, 0.0), Vec3::Z)];
+    let (mut dark, mut passes) = ([0.0; 2], [Vec3::ONE; 2]);
+    light.shadow.fractions(&point, Key::new(0, 0, 0), &mut dark);
+    light.shadow.transmittances(&point, Key::new(0, 0, 0), &dark, &mut passes);
+    // Two faces of the board, one after the other.
+    assert!(passes[0].abs_diff_eq(Vec3::new(0.25, 0.0625, 0.0), 0.02), "{}", passes[0]);
+    assert_eq!((passes[1], dark[1]), (Vec3::ONE, 0.0));
+    // Under the floor, which is opaque.
+    assert_eq!(at(&*light.shadow, 5.1, -2.0), 1.0);
+}
+
+#[test]
+fn a_wide_spot_has_several_maps_that_are_one_light() {
+    // 150 degrees, straight down from 2 over a plane.
+    let spot = View::spot(SpotView {
+        eye: DVec3::Z * 2.0,
+        target: DVec3::ZERO,
+        full_angle_radians: 150f64.to_radians(),
+        near: 0.1,
+        far: 100.0,
+        size: UVec2::splat(128),
+        ..SpotView::default()
+    })
+    .unwrap();
+    // The same as wide as can be, although no one map could hold it.
+    let half_space = spot.with_cone(Some(0.0)).unwrap();
+    let pole = |_: &View, _: u32| -> Vec<Triangle> {
+        let corner = |x: f32, z: f32| Vec3::new(3.0, x, z);
+        [
+            [corner(-0.5, 0.0), corner(0.5, 0.0), corner(0.5, 1.0)],
+            [corner(-0.5, 0.0), corner(0.5, 1.0), corner(-0.5, 1.0)],
+        ]
+        .map(|corners| Triangle::new(corners, 0, true))
+        .to_vec()
+    };
+    for (view, reach) in [(spot, 2.0 * 75f64.to_radians().tan()), (half_space, f64::INFINITY)] {
+        let light = recipe("auto").shadow_of(&[view], &LightUse::default(), pole).unwrap();
+        assert_eq!(light.maps.len(), 5);
+        let texels: u32 = light.maps.iter().map(|map| map.view.size().element_product()).sum();
+        assert!(texels.abs_diff(128 * 128) < 128 * 4, "{texels}");
+        // The pole's shadow goes from 3 to 6; the cone's rim is where its reach is.
+        for (x, want) in
+            [(0.5f32, 0.0), (2.9, 0.0), (3.1, 1.0), (5.8, 1.0), (6.2, 0.0), (7.3, 0.0), (7.6, 0.0), (40.0, 0.0)]
+        {
+            let want = if f64::from(x) > reach { 1.0 } else { want };
+            let found = light.shadow.fraction(&SurfacePoint::at(Vec3::new(x, 0.1, 0.0), Vec3::Z), Key::new(0, 0, 0));
+            assert_eq!(found, want, "at {x} of a cone that reaches {reach}");
+        }
+        let above = SurfacePoint::at(Vec3::new(1.0, 0.0, 2.5), Vec3::NEG_Z);
+        assert_eq!(light.shadow.fraction(&above, Key::new(0, 0, 0)), 1.0, "behind it nothing is lit");
+    }
+    assert!(
+        light("woo92", &[spot, spot], &LightUse::default()).unwrap_err().starts_with("views = \"2\": expected one")
+    );
+    assert!(light("auto", &[], &LightUse::default()).unwrap_err().starts_with("views = \"none\""));
+    assert!(light("auto", &[lamp(), lamp()], &LightUse::default()).unwrap_err().contains("is not in perspective"));
 }
 
 #[test]

@@ -1,11 +1,10 @@
-use crate::Soup;
+use crate::{Soup, receivers};
 use umbrage_bake::{Deep, bake_deep, mix_moments};
 use umbrage_depth::{DeepMap, DepthMap, Map, Storage, Tiled};
 use umbrage_plane::View;
 use umbrage_raster::Stats;
-use umbrage_recipe::{Recipe, RecipeError};
+use umbrage_recipe::{LightShadow, LightUse, Recipe, RecipeError};
 use umbrage_scene::Scene;
-use umbrage_shadow::Shadow;
 
 /// Pass 1: the map that a recipe wants of a scene as a light's view sees it.
 ///
@@ -15,21 +14,30 @@ pub fn light_map(recipe: &Recipe, scene: &Scene, view: &View) -> Map {
     exposed_map(recipe, &[scene], view).0
 }
 
-/// Pass 1 and what it is for: the shadow of a light by a recipe, over a map of each view that the recipe wants of it.
+/// Pass 1 and what it is for: the shadow of a light by a recipe, over all maps that the recipe wants of a scene at evenly spread times, one of them for a scene
+/// at rest. Maps are [fitted](umbrage_plane::View::fitted) to what the first scene's camera sees, where the recipe says so.
 ///
 /// # Errors
-/// As [`Recipe::views`] and [`Recipe::bind`].
+/// As [`Recipe::shadow_of`]. Without any scene, nothing casts a shadow.
 ///
 /// # Panics
 /// As [`Soup::casters`].
 pub fn light_shadow(
     recipe: &Recipe,
-    scene: &Scene,
+    moments: &[&Scene],
     view: &View,
     storage: Storage,
-) -> Result<Box<dyn Shadow>, RecipeError> {
-    let maps = recipe.views(view)?.into_iter().map(|view| light_map(recipe, scene, &view));
-    recipe.bind_all(view, maps, storage)
+) -> Result<LightShadow, RecipeError> {
+    let seen = match moments {
+        [first, ..] if recipe.is_fitted() => Some(receivers(first, view)),
+        _ => None,
+    };
+    let with = LightUse { storage, receivers: seen.as_deref(), moments: moments.len() as u32 };
+    let casters = |view: &View, moment: u32| {
+        let scene = moments.get(moment as usize).copied();
+        scene.map(|scene| Soup::casters(scene, view)).into_iter().flat_map(Soup::into_casting)
+    };
+    recipe.shadow_of(std::slice::from_ref(view), &with, casters)
 }
 
 /// [`light_map`] over an exposure, `moments` being the scene at evenly spread times (EXT-2): deep maps hold the mean of them; of maps of one

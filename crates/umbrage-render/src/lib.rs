@@ -28,6 +28,7 @@ mod lights;
 mod picture;
 mod planar;
 pub mod post;
+mod receivers;
 mod shade;
 mod soup;
 
@@ -35,5 +36,6 @@ pub use exposure::{expose, expose_deep, exposed_map, light_map, light_shadow};
 pub use lights::{bind_lights, light_maps};
 pub use picture::{Frame, NOTHING, Picture, picture, picture_where};
 pub use planar::{Ground, Planar};
+pub use receivers::receivers;
 
 pub use soup::Soup;

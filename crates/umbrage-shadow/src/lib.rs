@@ -45,7 +45,7 @@ pub use filters::{
     VirtualWhen, Williams, integer_first, williams,
 };
 pub use lights::{
-    Around, AroundError, DiscLight, Evaluate, LatLong, LatLongError, Mean, Shadow, ShadowMap, Tags, Unshadowed,
+    Around, AroundError, Bounded, Evaluate, LatLong, LatLongError, Mean, Shadow, ShadowMap, Tags, Through, Unshadowed,
     same_length,
 };
 pub use mean::weighted_mean;

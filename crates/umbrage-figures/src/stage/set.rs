@@ -9,7 +9,7 @@ use umbrage_depth::{First, Raw, Tiled, quantise};
 use umbrage_oracle::{AreaLight, Geometry, RayCast};
 use umbrage_plane::{Kind, Sampling, View};
 use umbrage_raster::Cull;
-use umbrage_recipe::{Recipe, bind};
+use umbrage_recipe::{LightShadow, Recipe, bind};
 use umbrage_render::{Frame, Picture, Soup, light_shadow, picture};
 use umbrage_scene::Scene;
 use umbrage_shadow::{Filter, Shadow, Unshadowed};
@@ -59,7 +59,12 @@ impl Set {
     /// Light 0's shadow by a recipe, over the map that the recipe wants.
     pub fn shadow(&self, cx: &Context, recipe: &str) -> anyhow::Result<Box<dyn Shadow>> {
         let recipe: Recipe = recipe.parse()?;
-        Ok(light_shadow(&recipe, &self.scene, &self.scene.lights[0].view, cx.storage)?)
+        Ok(self.light(cx, &recipe)?.shadow)
+    }
+
+    /// Light 0's shadow by a recipe, and the maps that it took.
+    pub fn light(&self, cx: &Context, recipe: &Recipe) -> anyhow::Result<LightShadow> {
+        Ok(light_shadow(recipe, &[&self.scene], &self.scene.lights[0].view, cx.storage)?)
     }
 
     /// The picture without any shadow.

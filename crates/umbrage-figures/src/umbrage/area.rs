@@ -4,10 +4,9 @@ use crate::figure::{Context, Figure, Paper};
 use crate::stage::masks::value;
 use crate::stage::panels::{error_panel, shadow_panel, truth_panel};
 use crate::stage::set::Set;
-use umbrage_depth::DepthMap;
 use umbrage_oracle::metrics;
 use umbrage_recipe::Recipe;
-use umbrage_render::{Frame, light_map};
+use umbrage_render::Frame;
 use umbrage_report::{Made, Measure, Table};
 use umbrage_scene::gallery;
 
@@ -39,11 +38,9 @@ fn area(cx: &Context) -> anyhow::Result<Made> {
     let seen: Vec<bool> = truth.share.iter().zip(&truth.facing[0]).map(|(s, f)| *s == 1.0 && *f > 0.02).collect();
     for (id, caption, recipe, texels) in SOFT {
         let set = Set::new(gallery::contact_box(), pixels, texels);
-        let picture = set.by(cx, recipe, &Frame::CENTRES)?;
-        let parsed: Recipe = recipe.parse()?;
-        let views = parsed.views(&set.scene.lights[0].view)?;
-        let bytes: usize =
-            views.iter().map(|view| light_map(&parsed, &set.scene, view).kept(cx.storage).allocated()).sum();
+        let light = set.light(cx, &recipe.parse::<Recipe>()?)?;
+        let picture = set.draw(cx, &*light.shadow, &Frame::CENTRES);
+        let bytes: usize = light.maps.iter().map(|map| map.bytes).sum();
         let (own, exact) = (&picture.shadow[0], &truth.shadow[0]);
         let rms = value(metrics::rms(own, exact, &seen));
         made.panels.push(shadow_panel(id, caption, &picture).with("recipe", recipe).against("truth"));

@@ -4,11 +4,10 @@ use crate::figure::Context;
 use crate::stage::masks::{shadow_grid, value};
 use crate::stage::set::Set;
 use std::sync::Arc;
-use umbrage_depth::DepthMap;
 use umbrage_oracle::{Geometry, RayCast, metrics};
 use umbrage_plane::{Place, SurfacePoint, View};
 use umbrage_recipe::Recipe;
-use umbrage_render::{Frame, Picture, light_map, picture_where};
+use umbrage_render::{Frame, Picture, picture_where};
 use umbrage_sample::Key;
 use umbrage_scene::gallery::Make;
 use umbrage_shadow::{Shadow, same_length};
@@ -94,11 +93,10 @@ impl Judge {
 
     /// A recipe's picture, and all bytes of its map for each texel.
     pub fn by(&self, cx: &Context, recipe: &str, frame: &Frame) -> anyhow::Result<(Picture, f64)> {
-        let recipe: Recipe = recipe.parse()?;
-        let view = &self.set.scene.lights[0].view;
-        let map = light_map(&recipe, &self.set.scene, view);
-        let bytes = map.clone().kept(cx.storage).allocated() as f64 / f64::from(view.size().element_product());
-        Ok((self.set.draw(cx, &*recipe.bind(map, cx.storage)?, frame), bytes))
+        let light = self.set.light(cx, &recipe.parse::<Recipe>()?)?;
+        let texels = f64::from(self.set.scene.lights[0].view.size().element_product());
+        let bytes = light.maps.iter().map(|map| map.bytes).sum::<usize>() as f64 / texels;
+        Ok((self.set.draw(cx, &*light.shadow, frame), bytes))
     }
 }
 

@@ -1,18 +1,20 @@
 //! What shading sees: lights of one map, of several around them, and of one over all directions.
 
 mod around;
-mod disc;
+mod bounded;
 mod lat_long;
 mod mean;
 mod shadow_map;
 mod tags;
+mod through;
 
 pub use around::{Around, AroundError, Evaluate};
-pub use disc::DiscLight;
+pub use bounded::Bounded;
 pub use lat_long::{LatLong, LatLongError};
 pub use mean::Mean;
 pub use shadow_map::ShadowMap;
 pub use tags::Tags;
+pub use through::Through;
 
 use crate::surfaces::Channel;
 use glam::Vec3;

@@ -1,0 +1,277 @@
+//! A light's shadow by a recipe: the views that it wants maps of, the maps, and the algorithm over them.
+
+use crate::bind::around;
+use crate::values::{Values, Window};
+use crate::{PresetName, Recipe, RecipeError};
+use std::cell::Cell;
+use std::fmt;
+use umbrage_bake::Caster;
+use umbrage_depth::{DepthMap, Map, Storage};
+use umbrage_plane::View;
+use umbrage_plane::glam::{DVec3, Vec3};
+use umbrage_raster::Stats;
+use umbrage_shadow::{Bounded, Mean, Shadow, Through};
+
+/// Cosine of the half-angle beyond which a spot light gets several views: 70°.
+const WIDE: f64 = 0.342_020_143_325_668_7;
+
+/// Fewest and most points of a light with a size, where their number is not given.
+const POINTS: [u32; 2] = [8, 64];
+
+/// What a light's maps are made for, beside its view.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LightUse<'a> {
+    /// How maps of one depth per texel are kept.
+    pub storage: Storage,
+    /// Points of the world that will be asked about: what the camera sees. `window=fitted` lays the maps about them. `None` where nobody
+    /// knows.
+    pub receivers: Option<&'a [DVec3]>,
+    /// Evenly spread times at which casters are asked for; 0 counts as 1.
+    pub moments: u32,
+}
+
+/// A light's shadow, and what it took.
+pub struct LightShadow {
+    /// What is asked.
+    pub shadow: Box<dyn Shadow>,
+    /// Its maps, in the order in which they were made.
+    pub maps: Vec<LightMap>,
+    /// What became of the triangles, all maps together.
+    pub stats: Stats,
+}
+
+/// One map of a light's shadow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightMap {
+    /// Its view.
+    pub view: View,
+    /// What it keeps.
+    pub keeps: Keeps,
+    /// All that it holds, bytes.
+    pub bytes: usize,
+}
+
+/// What a map keeps of its texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Keeps {
+    /// One depth.
+    Depths,
+    /// The facet that is seen.
+    Facets,
+    /// All surfaces, and what passes them.
+    Deep,
+}
+
+impl fmt::Display for LightShadow {
+    /// One line for people: how many maps of what, and their bytes.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let kinds = [
+            (Keeps::Depths, "of depths"),
+            (Keeps::Facets, "of facets"),
+            (Keeps::Deep, "of all surfaces, for casters that let light pass"),
+        ];
+        for (keeps, name) in kinds {
+            let count = self.maps.iter().filter(|map| map.keeps == keeps).count();
+            if count > 0 {
+                write!(f, "{count} map{} {name}, ", if count == 1 { "" } else { "s" })?;
+            }
+        }
+        write!(f, "{} bytes", self.maps.iter().map(|map| map.bytes).sum::<usize>())
+    }
+}
+
+impl fmt::Debug for LightShadow {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("LightShadow").field("maps", &self.maps).field("stats", &self.stats).finish_non_exhaustive()
+    }
+}
+
+impl Recipe {
+    /// All of pass 1 of a light, and the algorithm over it: a map for each view that the recipe wants. `views` are the light's own view, or several that stand
+    /// at one place and see each another part ([`umbrage_plane::cube_views`]), which `auto` alone can cross. `casters` gives the triangles for a view at one of the moments; it
+    /// is asked for each map, and again where some of them let light pass.
+    ///
+    /// `auto` makes of it what the light is:
+    /// * a spot of a half-angle above 70° has [several maps](View::faces_ahead) instead of one;
+    /// * with `light=`, the mean of maps at [points of the light](View::over_disc);
+    /// * over several moments, the mean of maps of each;
+    /// * casters that let light pass are kept in a deep map, the others in a map of facets, and light passes [through both](Through).
+    ///
+    /// Other recipes make one map of one view, in which moments are mixed ([`Recipe::bake_moments`]).
+    ///
+    /// ```
+    /// use glam::{DVec3, UVec2, Vec3};
+    /// use umbrage_plane::{SpotView, SurfacePoint, View};
+    /// use umbrage_raster::Triangle;
+    /// use umbrage_recipe::{LightUse, Recipe};
+    /// use umbrage_sample::Key;
+    ///
+    /// // A lamp ten units above a floor, and a square board halfway.
+    /// let eye = DVec3::Y * 10.0;
+    /// let lamp = View::spot(SpotView { eye, size: UVec2::splat(128), target: DVec3::ZERO, ..SpotView::default() })?;
+    /// let corner = |x: f64, z: f64| DVec3::new(x, 5.0, z);
+    /// let board = [(corner(1.0, -1.0), 0), (corner(-1.0, 1.0), 0)];
+    /// let board = board.map(|(third, object)| Triangle { corners: [corner(-1.0, -1.0), corner(1.0, 1.0), third], object, sheet: true });
+    /// let light = Recipe::default().shadow_of(&[lamp], &LightUse::default(), |_, _| board)?;
+    /// assert_eq!(light.shadow.fraction(&SurfacePoint::at(Vec3::new(1.9, 0.0, 0.0), Vec3::Y), Key::new(0, 0, 0)), 1.0);
+    /// assert_eq!(light.maps.len(), 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// When no view, or several for another recipe than `auto`, are given, or several for a light with a size; when `window=fitted` knows no receivers; when no view can stand at a point of the light;
+    /// and when views around one light do not belong together.
+    pub fn shadow_of<I>(
+        &self,
+        views: &[View],
+        with: &LightUse<'_>,
+        mut casters: impl FnMut(&View, u32) -> I,
+    ) -> Result<LightShadow, RecipeError>
+    where
+        I: IntoIterator<Item: Into<Caster>>,
+    {
+        let Values { window, light, .. } = self.values;
+        let auto = self.preset == PresetName::Auto;
+        let light = light.filter(|_| auto);
+        let [first, others @ ..] = views else {
+            return Err(RecipeError::value("views", "none", "the view of a light"));
+        };
+        if !others.is_empty() && (!auto || light.is_some()) {
+            let expected = "one, unless the recipe is auto without light=";
+            return Err(RecipeError::value("views", &views.len().to_string(), expected));
+        }
+        if window == Window::Fitted && with.receivers.is_none() {
+            return Err(RecipeError::value(
+                "window",
+                "fitted",
+                "given, where it is not known which points will be asked about",
+            ));
+        }
+        let fitted = |view: View| match with.receivers {
+            Some(points) if window == Window::Fitted => {
+                view.fitted(points.iter().copied()).map_err(|error| of_view("window", "fitted", &error))
+            }
+            _ => Ok(view),
+        };
+        let moments = with.moments.max(1);
+        let mut made = Made { recipe: self, storage: with.storage, maps: Vec::new(), stats: Stats::default() };
+        if !auto {
+            let view = fitted(*first)?;
+            let moments = (0..moments).map(|moment| casters(&view, moment));
+            let (map, stats) = self.bake_counted(&view, moments);
+            made.stats += stats;
+            let map = made.kept(map);
+            return Ok(made.finish(self.bind_any(map, with.storage)));
+        }
+        let wide = |view: &View| view.is_perspective() && view.cone().is_some_and(|cos_half| cos_half < WIDE);
+        let split = others.is_empty() && wide(first);
+        let centres = match light {
+            None => vec![*first],
+            Some(radius) => {
+                let view = fitted(*first)?;
+                let count = self.values.maps.unwrap_or_else(|| {
+                    points_of(&view, radius, casters(&view, 0).into_iter().map(Into::into), with.receivers)
+                });
+                let disc = first.over_disc(f64::from(radius), count);
+                disc.map_err(|error| of_view("light", &radius.to_string(), &error))?
+            }
+        };
+        let mut all = Vec::new();
+        for centre in &centres {
+            let faces = match (split, others.is_empty()) {
+                (true, _) => centre.faces_ahead().map_err(|error| of_view("light", "wide", &error))?.to_vec(),
+                (_, true) => vec![*centre],
+                _ => views.to_vec(),
+            };
+            let faces = faces.into_iter().map(fitted).collect::<Result<Vec<_>, _>>()?;
+            for moment in 0..moments {
+                all.push(made.over(&faces, |view| casters(view, moment))?);
+            }
+        }
+        let one = if all.len() == 1 { all.pop() } else { None };
+        let shadow = one.unwrap_or_else(|| Box::new(Mean(all)));
+        if split || light.is_some() {
+            return Ok(made.finish(Box::new(Bounded { view: *first, by_cone: split, shadow })));
+        }
+        Ok(made.finish(shadow))
+    }
+}
+
+/// Maps as they are made.
+struct Made<'a> {
+    recipe: &'a Recipe,
+    storage: Storage,
+    maps: Vec<LightMap>,
+    stats: Stats,
+}
+
+impl Made<'_> {
+    fn finish(self, shadow: Box<dyn Shadow>) -> LightShadow {
+        LightShadow { shadow, maps: self.maps, stats: self.stats }
+    }
+
+    /// Takes a map into the list.
+    fn kept(&mut self, map: Map) -> Map {
+        let map = map.kept(self.storage);
+        let keeps = match &map {
+            Map::Facets(_) => Keeps::Facets,
+            Map::Deep(_) => Keeps::Deep,
+            _ => Keeps::Depths,
+        };
+        self.maps.push(LightMap { view: *map.view(), keeps, bytes: map.allocated() });
+        map
+    }
+
+    /// The default over the maps of several views of one moment.
+    fn over<I>(&mut self, views: &[View], mut casters: impl FnMut(&View) -> I) -> Result<Box<dyn Shadow>, RecipeError>
+    where
+        I: IntoIterator<Item: Into<Caster>>,
+    {
+        let passing = Cell::new(false);
+        let mut pass = |made: &mut Self, recipe: &Recipe, transparent: bool| {
+            let mut maps = Vec::new();
+            for view in views {
+                let wanted = |caster: &Caster| {
+                    let passes = caster.passes.max(Vec3::ZERO) != Vec3::ZERO;
+                    passing.set(passing.get() || passes);
+                    passes == transparent
+                };
+                let (map, stats) =
+                    recipe.bake_counted(view, [casters(view).into_iter().map(Into::into).filter(wanted)]);
+                made.stats += stats;
+                maps.push(made.kept(map));
+            }
+            around(recipe.values.dual, maps)
+        };
+        let opaque = pass(self, self.recipe, false)?;
+        if !passing.get() {
+            return Ok(opaque);
+        }
+        let deep = Recipe { values: self.recipe.values.deep(), ..*self.recipe };
+        let transparent = pass(self, &deep, true)?;
+        Ok(Box::new(Through(vec![opaque, transparent])))
+    }
+}
+
+/// How many points a light of a size is taken for: one for every two texels of its widest penumbra, which is that of the nearest caster on the farthest
+/// receiver.
+fn points_of(view: &View, radius: f32, casters: impl Iterator<Item = Caster>, receivers: Option<&[DVec3]>) -> u32 {
+    let zeta = |at: &DVec3| -view.world_to_eye().transform_point3(*at).z;
+    let (mut nearest, mut farthest) = (f64::INFINITY, f64::NEG_INFINITY);
+    for corner in casters.flat_map(|caster| caster.triangle.corners) {
+        let zeta = zeta(&corner);
+        (nearest, farthest) = (nearest.min(zeta), farthest.max(zeta));
+    }
+    if let Some(receivers) = receivers.filter(|receivers| !receivers.is_empty()) {
+        farthest = receivers.iter().map(zeta).fold(f64::NEG_INFINITY, f64::max);
+    }
+    let nearest = nearest.max(view.near());
+    let spread = if view.is_perspective() { (farthest - nearest) / nearest } else { farthest - nearest };
+    let texels = 2.0 * f64::from(radius) * spread / view.texel_world(farthest).min_element();
+    // NaN and nothing at all are the fewest.
+    (((0.5 * texels.max(0.0)) as u32).min(POINTS[1])).next_power_of_two().clamp(POINTS[0], POINTS[1])
+}
+
+fn of_view(field: &str, value: &str, error: &dyn fmt::Display) -> RecipeError {
+    RecipeError::value(field, value, format!("a light that has such views: {error}"))
+}
