@@ -231,3 +231,25 @@ fn words_that_lie_are_named() {
         assert!(error.to_string().starts_with(expected), "{error}");
     }
 }
+
+/// Slopes that sixteen bits do not hold are as steep as those can be: the depth at the texel's centre stays what it is.
+#[test]
+fn facets_that_are_nearly_edge_on_keep_their_depth() {
+    let view = sun(UVec2::splat(TILE));
+    let depths = FacetDepths::of(&view);
+    let plane = |texel: u32| {
+        let dx = f64::from(texel % 3) * 1e5;
+        Affine { c: 4.0 + f64::from(texel) * 1e-3 - dx * (f64::from(texel % TILE) + 0.5), dx, dy: 0.0 }
+    };
+    let planes: Vec<Affine> = (0..AREA as u32).map(plane).collect();
+    let texels: Vec<u32> = (0..AREA as u32).collect();
+    let cells = FacetCells { planes: &planes, texels: &texels, blocks: &[] };
+    let depth = |texel: IVec2, plane: &Affine| depths.depth(texel, plane);
+    let tile = FacetTile::new(&cells, IVec2::ZERO, view.size(), 4, depth);
+    let map = FacetMap::from_tiles(view, Stored::First, 4, 16, vec![tile]);
+    for (texel, index) in TexelRect::of_size(view.size()).texels().zip(0..) {
+        let expected = 4.0 + index as f32 * 1e-3;
+        assert!((map.depth(texel) - expected).abs() < 1e-5, "{texel}: {} instead of {expected}", map.depth(texel));
+    }
+    assert!(again(&map, &map.to_words()).expect("finite") == map);
+}

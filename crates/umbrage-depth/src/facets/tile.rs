@@ -132,7 +132,9 @@ impl FacetTile {
         let one = |(index, plane): (usize, &u32)| {
             let plane = plane_of(*plane);
             let key = plane.at((origin + texel_of(index)).as_dvec2() + 0.5) - base;
-            (key as f32, [f16::from_f64(plane.dx), f16::from_f64(plane.dy)])
+            // Steeper ones would be infinite, and the key at the texel's centre not a number.
+            let steepest = f64::from(f16::MAX);
+            (key as f32, [plane.dx, plane.dy].map(|slope| f16::from_f64(slope.clamp(-steepest, steepest))))
         };
         let (keys, slopes): (Vec<f32>, Vec<[f16; 2]>) = cells.texels.iter().enumerate().map(one).unzip();
         Some(Self { cells: Cells::Own { base, keys: keys.into(), slopes: slopes.into() }, blocks: None, range })
