@@ -72,7 +72,8 @@ pub use bbox::Bbox;
 pub use deep::{DeepMap, compress_steps};
 pub use facet_rule::FacetRule;
 pub use facets::{
-    FacetBlock, FacetCells, FacetDepths, FacetMap, FacetSample, FacetSource, FacetTile, Facets, NO_FACET,
+    FacetBlock, FacetCells, FacetDepths, FacetMap, FacetSample, FacetSource, FacetTile, FacetWordsError, Facets,
+    NO_FACET,
 };
 pub use first::First;
 pub use hit::Hit;

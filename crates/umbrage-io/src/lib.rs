@@ -4,7 +4,9 @@
 //!   tools read: tiled, channel `Z`, `worldToCamera`, `worldToNDC`, `near`, `far`, `textureformat = "Shadow"`.
 //! * [`write_deep_map`] and [`read_deep_map`]: all surfaces of each texel with what passes them (B06-11, EXT-3), bit for bit, as deep
 //!   scan lines that other tools composite: channels `Z` and `A` or `AR`, `AG`, `AB`.
-//! * [`Paged`]: the same file with only the tiles looked at last in memory (R87-20).
+//! * [`write_facet_map`] and [`read_facet_map`]: a map of facets, bit for bit, as a shadow map that other tools read, with planes, indices,
+//!   blocks and links in a second part.
+//! * [`Paged`]: a shadow map's file with only the tiles looked at last in memory (R87-20).
 //! * [`write_png`], [`write_png_grey`], [`write_exr`]: pictures from linear light; [`read_png`] for comparing.
 //! * [`depth_view`] and [`replicate`]: a map as a grey picture, a zoom without invention.
 //! * [`write_atomic`]: the one path on which all of these write. A killed run leaves no torn file.
@@ -26,6 +28,7 @@ mod cube;
 mod deep_map;
 mod depth_view;
 mod error;
+mod facet_map;
 mod file;
 mod paged;
 mod picture;
@@ -37,6 +40,9 @@ pub use deep_map::{
 };
 pub use depth_view::depth_view;
 pub use error::{Fault, IoError};
+pub use facet_map::{
+    DEFAULT_FACET_BUDGET, decode_facet_map, encode_facet_map, read_facet_map, read_facet_map_within, write_facet_map,
+};
 pub use file::{write_atomic, write_bytes};
 pub use paged::{Paged, PagedHandle};
 pub use picture::{

@@ -2,10 +2,13 @@
 
 mod known;
 mod look_up;
+mod map_words;
 mod packed;
 mod samples;
 mod source;
 mod tile;
+mod tile_words;
+mod words;
 
 use crate::{Stored, TILE, no_surface};
 use glam::{DVec2, IVec2, UVec2};
@@ -13,6 +16,7 @@ pub use known::Facets;
 pub use source::{FacetSample, FacetSource};
 pub use tile::{FacetBlock, FacetCells, FacetTile, NO_FACET};
 use umbrage_plane::{Affine, Decode, TexelRect, View};
+pub use words::FacetWordsError;
 
 /// log₂ of [`TILE`].
 const SHIFT: u32 = TILE.trailing_zeros();

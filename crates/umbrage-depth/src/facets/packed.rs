@@ -1,3 +1,5 @@
+use super::words::{FacetWordsError, Words};
+
 /// Small numbers of equal width, 0, 1, 2, 4, 8 or 16 bits each, side by side.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Packed {
@@ -35,5 +37,27 @@ impl Packed {
 
     pub fn bytes(&self) -> usize {
         size_of_val(self.words.as_ref())
+    }
+
+    /// Appends the width, 0 where nothing is kept, and the words.
+    pub fn write(&self, words: &mut Vec<u32>) {
+        words.push(self.log.map_or(0, |log| 1 << log));
+        words.extend(&self.words);
+    }
+
+    /// Takes `count` numbers, none of them above `most`.
+    pub fn read(words: &mut Words<'_>, field: &str, count: usize, most: u32) -> Result<Self, FacetWordsError> {
+        let width = words.one(field)?;
+        let log = match width {
+            0 => return Ok(Self { log: None, words: Box::default() }),
+            1 | 2 | 4 | 8 | 16 => width.ilog2(),
+            _ => return Err(FacetWordsError::new(field, width, "not a width of 0, 1, 2, 4, 8 or 16 bits")),
+        };
+        let taken = words.take(field, count.div_ceil(32 >> log))?;
+        let packed = Self { log: Some(log), words: taken.into() };
+        match (0..count).map(|index| packed.get(index)).find(|number| *number > most) {
+            Some(number) => Err(FacetWordsError::new(field, number, format!("not within 0..={most}"))),
+            None => Ok(packed),
+        }
     }
 }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use umbrage_plane::{Affine, DepthRange};
 
 /// Texels of a tile.
-const AREA: usize = (TILE * TILE) as usize;
+pub(super) const AREA: usize = (TILE * TILE) as usize;
 
 /// Where no facet is: no index of a plane.
 pub const NO_FACET: u32 = u32::MAX;
@@ -39,7 +39,7 @@ pub struct FacetCells<'a> {
 
 /// Planes of a tile, with or without all bits.
 #[derive(Clone, Debug, PartialEq)]
-enum Planes {
+pub(super) enum Planes {
     /// Over the map's texels, unrounded.
     Exact(Box<[Affine]>),
     /// About the tile's middle: key less `base`, and change per texel, rounded to f32.
@@ -48,7 +48,7 @@ enum Planes {
 
 /// Texels of a tile.
 #[derive(Clone, Debug, PartialEq)]
-enum Cells {
+pub(super) enum Cells {
     /// By an index into a table.
     Table { planes: Planes, texels: Packed },
     /// Depths as any other map keeps them: facets are no larger than texels here.
@@ -59,24 +59,24 @@ enum Cells {
 
 /// Samples of refined texels, block after block.
 #[derive(Clone, Debug, PartialEq)]
-struct Blocks {
+pub(super) struct Blocks {
     /// Refined texels: bit x of row y.
-    refined: [u32; TILE as usize],
+    pub(super) refined: [u32; TILE as usize],
     /// Blocks before each row.
-    before: [u16; TILE as usize],
-    samples: Packed,
+    pub(super) before: [u16; TILE as usize],
+    pub(super) samples: Packed,
     /// Links that are kept: a bit for each in the order of [`FacetBlock::links`], words of 32 for each block.
-    kept: Box<[u32]>,
+    pub(super) kept: Box<[u32]>,
     /// Links before each block.
-    first: Box<[u32]>,
-    places: Packed,
+    pub(super) first: Box<[u32]>,
+    pub(super) places: Packed,
 }
 
 /// A tile of a [`FacetMap`](crate::FacetMap) that holds a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FacetTile {
-    cells: Cells,
-    blocks: Option<Box<Blocks>>,
+    pub(super) cells: Cells,
+    pub(super) blocks: Option<Box<Blocks>>,
     pub(super) range: DepthRange,
 }
 
@@ -101,19 +101,15 @@ impl FacetTile {
         let texel_of = |index: usize| IVec2::new((index % TILE as usize) as i32, (index / TILE as usize) as i32);
         let plane_of = |plane: u32| cells.planes.get(plane as usize).copied().unwrap_or(NOTHING);
         let exact = fine == 1;
-        let mut range: Option<DepthRange> = None;
-        let mut depths = Vec::new();
+        let (mut depths, mut range) = (Vec::new(), range(std::iter::empty()));
         if exact {
             depths.resize(AREA, f32::INFINITY);
             let inside = |index: &usize| texel_of(*index).cmplt(valid.as_ivec2()).all();
             for index in (0..AREA).filter(inside) {
                 depths[index] = depth(origin + texel_of(index), &plane_of(cells.texels[index]));
-                let one = DepthRange { min: depths[index], max: depths[index] };
-                range = Some(range.map_or(one, |range| range.union(one)));
             }
+            range = self::range((0..AREA).filter(inside).map(|index| depths[index]));
         }
-        // Filters that ask refined maps ask their samples.
-        let range = range.unwrap_or(DepthRange::UNKNOWN);
         // A key that is seen in the tile, for differences from it to be small.
         let base = cells
             .texels
@@ -136,7 +132,9 @@ impl FacetTile {
         let one = |(index, plane): (usize, &u32)| {
             let plane = plane_of(*plane);
             let key = plane.at((origin + texel_of(index)).as_dvec2() + 0.5) - base;
-            (key as f32, [f16::from_f64(plane.dx), f16::from_f64(plane.dy)])
+            // Steeper ones would be infinite, and the key at the texel's centre not a number.
+            let steepest = f64::from(f16::MAX);
+            (key as f32, [plane.dx, plane.dy].map(|slope| f16::from_f64(slope.clamp(-steepest, steepest))))
         };
         let (keys, slopes): (Vec<f32>, Vec<[f16; 2]>) = cells.texels.iter().enumerate().map(one).unzip();
         Some(Self { cells: Cells::Own { base, keys: keys.into(), slopes: slopes.into() }, blocks: None, range })
@@ -225,6 +223,11 @@ impl FacetTile {
     }
 }
 
+/// The range of a tile with these depths; of none where filters ask samples, as they do of refined maps.
+pub(super) fn range(depths: impl Iterator<Item = f32>) -> DepthRange {
+    depths.map(|depth| DepthRange { min: depth, max: depth }).reduce(DepthRange::union).unwrap_or(DepthRange::UNKNOWN)
+}
+
 /// What a texel stores.
 pub(super) enum Stored {
     Plane(Affine),
@@ -303,7 +306,7 @@ impl Table {
 
 impl Blocks {
     fn new(cells: &FacetCells<'_>, table: &Table, fine: u32) -> Self {
-        let words = (2 * fine * fine).div_ceil(32) as usize;
+        let words = Self::link_words(fine);
         let mut blocks = Self {
             refined: [0; TILE as usize],
             before: [0; TILE as usize],
@@ -322,13 +325,24 @@ impl Blocks {
                 places.push(u32::from(*place));
             }
         }
-        let mut before = 0;
-        for (row, refined) in blocks.before.iter_mut().zip(blocks.refined) {
-            *row = before;
-            before += refined.count_ones() as u16;
-        }
+        blocks.before = Self::before(&blocks.refined);
         (blocks.samples, blocks.first, blocks.places) = (Packed::new(&samples), first.into(), Packed::new(&places));
         blocks
+    }
+
+    /// Words that say which links of a block are kept.
+    pub(super) fn link_words(fine: u32) -> usize {
+        (2 * fine * fine).div_ceil(32) as usize
+    }
+
+    /// Blocks before each row of texels.
+    pub(super) fn before(refined: &[u32; TILE as usize]) -> [u16; TILE as usize] {
+        let mut next = 0;
+        refined.map(|row| {
+            let before = next;
+            next += row.count_ones() as u16;
+            before
+        })
     }
 
     fn bytes(&self) -> usize {

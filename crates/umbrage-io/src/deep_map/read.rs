@@ -43,7 +43,7 @@ pub(super) fn decode(bytes: &[u8], most_steps: u64) -> Result<DeepMap, Fault> {
         return Err(fault);
     }
     let map = map.map_err(|error| Fault::new("samples", "no map", error))?;
-    check_digest(file.digest, digest(map.view(), Stored::First, numbers(&map)))?;
+    check_digest(file.digest, digest(map.view(), Stored::First, numbers(&map).map(f32::to_bits)))?;
     Ok(map)
 }
 

@@ -47,7 +47,7 @@ impl Pager {
         }
         let (file, length) = open_regular(path)?;
         let preface = Preface::read(BufReader::new(&file), length, u64::MAX, MOST_TILES);
-        let Preface { meta, view, stored, digest, layout, seen, offsets } =
+        let Preface { meta, view, stored, digest, layout, seen, offsets, .. } =
             preface.map_err(|fault| fault.in_file(path))?;
         if !layout.is_tiled() {
             return Err(Fault::new("tiles", "missing", "scan lines cannot be paged").in_file(path));

@@ -4,19 +4,32 @@ use exr::block::chunk::{Chunk, CompressedBlock, CompressedScanLineBlock, Compres
 use exr::meta::attribute::LevelMode;
 use exr::meta::header::Header;
 use exr::meta::{BlockDescription, MetaData};
-use exr::prelude::Vec2;
+use exr::prelude::{Compression, Vec2};
 use glam::{IVec2, UVec2};
 use umbrage_plane::TexelRect;
 
 /// Deflate makes no more than 1032 bytes of one; a block that claims more is not worth taking memory for.
 pub(crate) const MOST_BYTES_PER_BYTE: usize = 1100;
 
-/// Bytes before a tile's packed depths: its coordinates, its level, its length.
-const TILE_HEAD: usize = 20;
+/// Most bytes before a block's packed samples: its part, its coordinates, its level, its length.
+const BLOCK_HEAD: usize = 24;
 
-/// How the stored rectangle is cut into blocks.
+/// What is packed without loss, by coders that are known to bear hostile bytes.
+pub(super) fn check_packing(header: &Header) -> Result<(), Fault> {
+    match header.compression {
+        Compression::Uncompressed | Compression::RLE | Compression::ZIP1 | Compression::ZIP16 => Ok(()),
+        lossy_or_rare => {
+            let problem = "maps are read from none, RLE, ZIPS and ZIP only, which keep every bit";
+            Err(Fault::new("compression", lossy_or_rare, problem))
+        }
+    }
+}
+
+/// How the stored rectangle of a part is cut into blocks.
 #[derive(Debug)]
 pub(crate) struct Layout {
+    /// Which part of the file, where there are several: each block then begins with its number.
+    part: Option<usize>,
     /// Relative to the display window.
     window: TexelRect,
     /// Largest sides of a block.
@@ -29,7 +42,7 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    pub(super) fn new(header: &Header, window: TexelRect) -> Result<Self, Fault> {
+    pub(super) fn new(header: &Header, part: Option<usize>, window: TexelRect) -> Result<Self, Fault> {
         let sides = window.size();
         let (block, tiled) = match header.blocks {
             BlockDescription::ScanLines => (Vec2(sides.x as usize, header.compression.scan_lines_per_block()), false),
@@ -44,6 +57,7 @@ impl Layout {
         })?;
         let blocks = (sides + block - 1) / block;
         Ok(Self {
+            part,
             window,
             block: block.as_ivec2(),
             columns: blocks.x as usize,
@@ -90,9 +104,9 @@ impl Layout {
         TexelRect::new(min, min + self.block).intersect(self.window)
     }
 
-    /// More bytes than these of the file are never part of a tile.
+    /// More bytes than these of the file never belong to a block.
     pub(crate) fn most_bytes(&self, index: usize) -> usize {
-        TILE_HEAD + self.area(index).area() * 4
+        BLOCK_HEAD + self.area(index).area() * 4
     }
 
     /// What a fault in a block is said of.
@@ -109,6 +123,12 @@ impl Layout {
             |value: &dyn ToString, problem: &str| Fault::new(self.name(index, offset), value.to_string(), problem);
         let mut words = Words { rest: block };
         let mut word = |what: &str| words.next().ok_or_else(|| broken(&"cut off", what));
+        if let Some(part) = self.part {
+            let found = word("part")?;
+            if usize::try_from(found) != Ok(part) {
+                return Err(broken(&found, &format!("the block there should be of part {part}")));
+            }
+        }
         let (found, expected) = if self.tiled {
             let found = [word("tile x")?, word("tile y")?, word("level x")?, word("level y")?];
             (found, [cell.x, cell.y, 0, 0])
@@ -133,7 +153,7 @@ impl Layout {
         } else {
             CompressedBlock::ScanLine(CompressedScanLineBlock { y_coordinate: found[0], compressed_pixels_le })
         };
-        let chunk = Chunk { layer_index: 0, compressed_block };
+        let chunk = Chunk { layer_index: self.part.unwrap_or(0), compressed_block };
         let samples = UncompressedBlock::decompress_chunk(chunk, meta, true);
         let samples = samples.map_err(|error| broken(&"damaged", &error.to_string()))?.data;
         if samples.len() != expected {

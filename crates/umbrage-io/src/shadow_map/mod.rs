@@ -7,12 +7,15 @@
 //! damage is noticed. Files without `comments` are read from the matrices. A tool that fills a file of ours up to its display window,
 //! as `maketx --shadow` does with 0, leaves the same map: what `comments` says was not written is +∞. Tools that change depths must
 //! drop `comments` and `software`.
+//!
+//! A file may have a second part, named `facets`, which is not looked at here: the file of a map of facets is a shadow map too.
 
 mod layout;
 mod matrices;
 mod nearest;
 mod read;
 mod text;
+mod words;
 mod write;
 
 use crate::error::{Fault, IoError};
@@ -22,22 +25,24 @@ use umbrage_depth::{DepthMap, Raw};
 
 pub(crate) use layout::{Layout, MOST_BYTES_PER_BYTE};
 pub(crate) use nearest::Nearest;
-pub(crate) use read::{Preface, check_digest};
-pub(crate) use text::{digest, of_map as comments};
-pub(crate) use write::{attributes, channel, display, stored_window};
+pub(crate) use read::{Preface, check_digest, depths};
+pub(crate) use text::{digest, of_map as comments, value};
+pub(crate) use words::{WordPart, Words, in_part};
+pub(crate) use write::{attributes, channel, display, encode, stored_window};
 
 /// Most texels that [`read_shadow_map`] takes: 16,384 × 16,384, which is 1 GiB.
 pub const DEFAULT_BUDGET: u64 = 1 << 28;
 
-/// A shadow map's file as bytes; the same bytes for the same map, whatever its storage.
+/// A shadow map's file as bytes; the same bytes for the same map, whatever its storage. Of a deep map and of one of facets that
+/// is the depths alone: [`encode_deep_map`](crate::encode_deep_map) and [`encode_facet_map`](crate::encode_facet_map) keep the rest.
 ///
 /// # Errors
 /// A [`Fault`] when the coder refuses; no map that can be made is known to bring that about.
 pub fn encode_shadow_map(map: &impl DepthMap) -> Result<Vec<u8>, Fault> {
-    write::encode(map)
+    encode(map, None)
 }
 
-/// Writes a map's file, as a whole or not at all (R87-4).
+/// Writes a map's file, as a whole or not at all (R87-4); the depths alone, as [`encode_shadow_map`] does.
 ///
 /// # Errors
 /// [`IoError`], when the system refuses.
@@ -48,7 +53,7 @@ pub fn write_shadow_map(path: &Path, map: &impl DepthMap) -> Result<(), IoError>
 /// Reads a map: depths, view and stored surface equal those that were written bit for bit (R87-4). Depths of 1e30 and more count as +∞
 /// (C-5).
 ///
-/// Files of other makers are taken when they have one part with one channel `Z` of floats, stored without loss, and the four
+/// The file of a map of facets is taken as the depths it holds. Files of other makers are taken when they have one part with one channel `Z` of floats, stored without loss, and the four
 /// attributes; their depths are axial, their texels sampled at the centre, and what lies outside is lit.
 ///
 /// # Errors
@@ -63,8 +68,10 @@ pub fn read_shadow_map(path: &Path) -> Result<Raw, IoError> {
 /// # Errors
 /// As [`read_shadow_map`].
 pub fn read_shadow_map_within(path: &Path, most_texels: u64) -> Result<Raw, IoError> {
-    // Stored without loss, a texel takes four bytes at most; the rest is header, offset table and what a coder adds.
-    let most_bytes = most_texels.saturating_mul(5).saturating_add(1 << 20);
+    // Stored without loss, a texel takes four bytes at most; the rest is header, offset table and what a coder adds. The facets behind
+    // the depths may take four times as much.
+    let (depths, all) = (most_texels.saturating_mul(5), most_texels.saturating_mul(25));
+    let most_bytes = depths.max(all.min(5 * DEFAULT_BUDGET)).saturating_add(1 << 20);
     decode_shadow_map(&read_bytes(path, most_bytes)?, most_texels).map_err(|fault| fault.in_file(path))
 }
 
@@ -73,7 +80,8 @@ pub fn read_shadow_map_within(path: &Path, most_texels: u64) -> Result<Raw, IoEr
 /// # Errors
 /// A [`Fault`], when the bytes are no shadow map of that size.
 pub fn decode_shadow_map(bytes: &[u8], most_texels: u64) -> Result<Raw, Fault> {
-    let (view, stored, depths) = read::decode(bytes, most_texels)?;
-    let map = Raw::new(view, depths).map_err(|error| Fault::new("channel Z", "no map", error))?;
-    Ok(map.with_stored(stored))
+    let file = Preface::read(bytes, bytes.len() as u64, most_texels, u64::MAX)?;
+    let depths = depths(&file, bytes)?;
+    let map = Raw::new(file.view, depths).map_err(|error| Fault::new("channel Z", "no map", error))?;
+    Ok(map.with_stored(file.stored))
 }

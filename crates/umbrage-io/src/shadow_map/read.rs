@@ -1,8 +1,10 @@
+use super::layout::check_packing;
+use super::words::WordPart;
 use super::{Layout, Nearest, matrices, text};
 use crate::error::Fault;
 use exr::meta::MetaData;
 use exr::meta::header::Header;
-use exr::prelude::{Compression, SampleType, Vec2};
+use exr::prelude::{SampleType, Vec2};
 use glam::{IVec2, UVec2};
 use std::io::{BufRead, Read};
 use umbrage_depth::Stored;
@@ -24,8 +26,10 @@ pub(crate) struct Preface {
     /// The rectangle outside of which no surface was seen, whatever the file holds there: tools that fill a cropped file up to its
     /// display window, as `maketx` does, put 0 or NaN there. The whole map where the file does not say.
     pub(crate) seen: TexelRect,
-    /// Where the file has each block; all different, all behind the table and inside the file.
+    /// Where the file has each block; all different, all behind the tables and inside the file.
     pub(crate) offsets: Vec<u64>,
+    /// The part of words behind the depths, in files that have one.
+    pub(crate) words: Option<WordPart>,
 }
 
 impl Preface {
@@ -50,36 +54,40 @@ impl Preface {
             MOST_HEADER_BYTES => Fault::new("header", "unreadable", format!("it passes {position} bytes")),
             _ => Fault::new("header", "unreadable", error),
         })?;
-        if meta.requirements.has_multiple_layers {
-            return Err(Fault::new("version", "flagged as of several parts", "a shadow map is a file of one part"));
-        }
-        let header = match meta.headers.as_slice() {
-            [header] => header,
-            parts => return Err(Fault::new("parts", parts.len(), "a shadow map has one")),
+        let several = meta.requirements.has_multiple_layers;
+        let (header, words) = match meta.headers.as_slice() {
+            [header] if !several => (header, None),
+            [header, words] if several && !header.deep => (header, Some(words)),
+            [_] => return Err(Fault::new("version", "flagged as of several parts", "the file has one")),
+            parts => return Err(Fault::new("parts", parts.len(), "a shadow map has one, and at most one of facets")),
         };
         check_form(header)?;
         let (size, window) = windows(header, most_texels)?;
-        let layout = Layout::new(header, window)?;
+        let layout = Layout::new(header, several.then_some(0), window)?;
+        let words = words.map(WordPart::layout).transpose()?;
         let blocks = layout.count();
-        if blocks as u64 > most_blocks {
-            return Err(Fault::new("offset table", blocks, format!("more than the allowed {most_blocks} blocks")));
+        let all = blocks + words.as_ref().map_or(0, Layout::count);
+        if all as u64 > most_blocks {
+            return Err(Fault::new("offset table", all, format!("more than the allowed {most_blocks} blocks")));
         }
         file.set_limit(length - position);
-        let offsets = offsets(file, position, length, blocks)?;
+        let mut offsets = offsets(file, position, length, all)?;
+        let behind = offsets.split_off(blocks);
+        let words = words.map(|layout| WordPart { layout, offsets: behind });
         let text::Description { view, stored, window: seen, digest } = described(header, size)?;
-        Ok(Self { meta, view, stored, digest, layout, seen, offsets })
+        Ok(Self { meta, view, stored, digest, layout, seen, offsets, words })
     }
 }
 
-pub(crate) fn decode(bytes: &[u8], most_texels: u64) -> Result<(View, Stored, Vec<f32>), Fault> {
-    let file = Preface::read(bytes, bytes.len() as u64, most_texels, u64::MAX)?;
+/// The depths of a file, whose bytes are these, row by row.
+pub(crate) fn depths(file: &Preface, bytes: &[u8]) -> Result<Vec<f32>, Fault> {
     let size = file.view.size();
     let texels = size.x as usize * size.y as usize;
     let mut depths: Vec<f32> = Vec::new();
     depths.try_reserve_exact(texels).map_err(|full| Fault::new("displayWindow", texels, full))?;
     depths.resize(texels, f32::INFINITY);
     let nearest = Nearest::of(&file.view, file.digest);
-    for (index, offset) in file.offsets.into_iter().enumerate() {
+    for (index, &offset) in file.offsets.iter().enumerate() {
         let samples = file.layout.samples(&file.meta, &bytes[offset as usize..], index, offset)?;
         let area = file.layout.area(index);
         let samples = area.texels().zip(samples.as_chunks::<4>().0);
@@ -89,15 +97,15 @@ pub(crate) fn decode(bytes: &[u8], most_texels: u64) -> Result<(View, Stored, Ve
             depths[texel.y as usize * size.x as usize + texel.x as usize] = depth;
         }
     }
-    check_digest(file.digest, text::digest(&file.view, file.stored, depths.iter().copied()))?;
-    Ok((file.view, file.stored, depths))
+    check_digest(file.digest, text::digest(&file.view, file.stored, depths.iter().map(|depth| depth.to_bits())))?;
+    Ok(depths)
 }
 
 /// A file of ours holds what was written.
 pub(crate) fn check_digest(written: Option<u64>, found: u64) -> Result<(), Fault> {
     match written {
         Some(written) if written != found => {
-            let problem = format!("view and depths make {found:016x}: they are not what was written");
+            let problem = format!("what the file holds makes {found:016x}, which is not what was written");
             Err(Fault::new("comments: digest", format!("{written:016x}"), problem))
         }
         _ => Ok(()),
@@ -122,13 +130,7 @@ fn check_form(header: &Header) -> Result<(), Fault> {
         }
         _ => return Err(Fault::new("channels", names, "not the one channel Z")),
     }
-    match header.compression {
-        Compression::Uncompressed | Compression::RLE | Compression::ZIP1 | Compression::ZIP16 => Ok(()),
-        lossy_or_rare => {
-            let problem = "depths are read from none, RLE, ZIPS and ZIP only, which keep every bit";
-            Err(Fault::new("compression", lossy_or_rare, problem))
-        }
-    }
+    check_packing(header)
 }
 
 /// The map's size and the rectangle that is stored of it, relative to the display window.
@@ -157,7 +159,7 @@ fn windows(header: &Header, most_texels: u64) -> Result<(UVec2, TexelRect), Faul
     Ok((size, window))
 }
 
-/// The offset table: every block after it, inside the file and in a place of its own. `file` starts with the table, which is at
+/// The offset tables of all parts, one behind the other: every block after them, inside the file and in a place of its own. `file` starts with the first table, which is at
 /// byte `position` of `length`.
 fn offsets(mut file: impl Read, position: u64, length: u64, count: usize) -> Result<Vec<u64>, Fault> {
     let first = position + count as u64 * 8;

@@ -72,18 +72,19 @@ pub(crate) struct Description {
 /// The text of a file: the view, which surface is stored, the rectangle that is written of it unless it is the whole map, and the
 /// digest of view, surface and depths.
 pub(crate) fn of_map(view: &View, stored: Stored, window: TexelRect, depths: impl IntoIterator<Item = f32>) -> String {
+    let depths = depths.into_iter().map(f32::to_bits);
     let TexelRect { min, max } = window;
     let cropped = window != TexelRect::of_size(view.size());
     let window = if cropped { format!("window={} {} {} {}\n", min.x, min.y, max.x, max.y) } else { String::new() };
     format!("{}{window}digest={:016x}\n", of_view(view, stored), digest(view, stored, depths))
 }
 
-/// A number that depends on every bit of a view and its depths (64-bit FNV-1a), so that a damaged file is not taken for
-/// another map. It is no seal: whoever wants to can compute it.
-pub(crate) fn digest(view: &View, stored: Stored, depths: impl IntoIterator<Item = f32>) -> u64 {
+/// A number that depends on every bit of a view and its depths, or what else is kept of it in words of 32 bits (64-bit FNV-1a over
+/// their little-endian bytes), so that a damaged file is not taken for another map. It is no seal: whoever wants to can compute it.
+pub(crate) fn digest(view: &View, stored: Stored, words: impl IntoIterator<Item = u32>) -> u64 {
     let fold = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3);
     let start = of_view(view, stored).bytes().fold(0xCBF2_9CE4_8422_2325, fold);
-    depths.into_iter().flat_map(f32::to_le_bytes).fold(start, fold)
+    words.into_iter().flat_map(u32::to_le_bytes).fold(start, fold)
 }
 
 /// What a text says of a map, or `None` when the text is somebody else's.
@@ -93,10 +94,7 @@ pub(crate) fn to_view(text: &str) -> Option<Result<Description, Fault>> {
 }
 
 fn parse(lines: &str) -> Result<Description, Fault> {
-    let line = |name: &str| {
-        let value = |line: &'_ str| line.strip_prefix(name)?.strip_prefix('=').map(str::to_owned);
-        lines.lines().find_map(value)
-    };
+    let line = |name: &str| value(lines, name).map(str::to_owned);
     let need = |name: &str| line(name).ok_or_else(|| fault(name, "missing", "a view needs it"));
     let one = |name: &str| Ok::<f64, Fault>(numbers::<1>(name, &need(name)?)?[0]);
     let matrix = DMat4::from_cols_array(&numbers("world_to_eye", &need("world_to_eye")?)?);
@@ -126,6 +124,11 @@ fn parse(lines: &str) -> Result<Description, Fault> {
         TexelRect::new(DVec2::new(left, top).as_ivec2(), DVec2::new(right, bottom).as_ivec2())
     });
     Ok(Description { view, stored, window, digest: Some(number) })
+}
+
+/// What a line `name=value` of a text says.
+pub(crate) fn value<'a>(lines: &'a str, name: &str) -> Option<&'a str> {
+    lines.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix('='))
 }
 
 fn numbers<const N: usize>(name: &str, text: &str) -> Result<[f64; N], Fault> {

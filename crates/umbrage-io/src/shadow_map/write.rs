@@ -1,3 +1,4 @@
+use super::words::Words;
 use super::{matrices, text};
 use crate::error::Fault;
 use exr::block::{self, BlockIndex, writer::ChunksWriter};
@@ -13,16 +14,22 @@ use umbrage_plane::{TexelRect, View};
 /// Side of a tile, texels.
 const TILE: usize = 64;
 
-pub(crate) fn encode(map: &impl DepthMap) -> Result<Vec<u8>, Fault> {
+/// A map's file; with `words`, one of two parts.
+pub(crate) fn encode(map: &impl DepthMap, words: Option<&Words<'_>>) -> Result<Vec<u8>, Fault> {
     let view = map.view();
     let window = stored_window(map);
     let texels = TexelRect::of_size(view.size()).texels();
     let comments = text::of_map(view, map.stored(), window, texels.map(|texel| map.depth(texel)));
     let mut bytes = Cursor::new(Vec::new());
-    let headers = std::iter::once(header(view, window, &comments)).collect();
+    let further = words.map(|words| words.header().with_display_window(display(view)));
+    let headers = std::iter::once(header(view, window, &comments)).chain(further).collect();
     let written = block::write(&mut bytes, headers, true, |meta, writer| {
         let mut compressor = writer.sequential_blocks_compressor(&meta);
-        for (index, block) in meta.collect_ordered_block_data(|block| samples(map, window, block)) {
+        let samples = |block: BlockIndex| match words {
+            Some(words) if block.layer > 0 => words.samples(block),
+            _ => samples(map, window, block),
+        };
+        for (index, block) in meta.collect_ordered_block_data(samples) {
             compressor.compress_block(index, block)?;
         }
         Ok(())

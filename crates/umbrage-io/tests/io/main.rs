@@ -3,6 +3,7 @@
 mod cube;
 mod deep_hostile;
 mod deep_maps;
+mod facets;
 mod far;
 mod files;
 mod hostile;
