@@ -4,9 +4,9 @@ use glam::{DVec3, UVec2, Vec3};
 use umbrage_bake::{Refinement, bake_refined};
 use umbrage_depth::{Map, Storage};
 use umbrage_oracle::{Body, Face, Geometry, RayCast};
-use umbrage_plane::{Cells, Kind, Rules, SurfacePoint, View, cube_views};
+use umbrage_plane::{Cells, Kind, Rules, Sectors, SpotView, SurfacePoint, View, cube_views, sector_views};
 use umbrage_raster::Triangle;
-use umbrage_recipe::Recipe;
+use umbrage_recipe::{LightUse, Recipe};
 use umbrage_sample::Key;
 use umbrage_shadow::{Around, DualPlane, Shadow, ShadowMap};
 use umbrage_tests::laws::Subject;
@@ -152,6 +152,71 @@ fn the_six_maps_of_a_lamp_are_one_light() {
         let seams: Vec<SurfacePoint> = points(&boxes, 400_000, half).iter().filter(at_seam).copied().collect();
         let (few, judged) = wrong(&ray, &lamp, DVec3::ZERO, &seams, 0.08);
         assert!(judged > 500 && few * 400 <= judged, "{few} of {judged} at seams, {half}");
+    }
+}
+
+/// The sectors about a mast among boxes answer as one light, where two of them meet too.
+#[test]
+fn sectors_meet_without_a_seam() {
+    let eye = DVec3::new(0.3, 2.0, -0.2);
+    let boxes: Vec<_> = town().into_iter().skip(1).collect();
+    let triangles = soup(&boxes);
+    let geometry = truth(&triangles, boxes.len());
+    let ray = RayCast::everywhere(&geometry, eye.extend(1.0));
+    for (count, margin) in [(3, 0.0), (6, 0.0), (6, 0.02)] {
+        let sectors = Sectors { count, margin, tan_elevation: 2.0, size: UVec2::splat(512) };
+        let views =
+            sector_views(eye, 0.05, 40.0, &sectors).unwrap().into_iter().map(|view| view.with_rules(Rules::AROUND));
+        let maps: Vec<_> =
+            views.map(|view| bake_refined(&view, triangles.iter().copied(), &Refinement::default()).map).collect();
+        let mast = Around::new(DualPlane::default(), maps).unwrap();
+        let seen = |point: &&SurfacePoint| {
+            let from = point.position - eye;
+            from.y.abs() < 1.8 * from.x.hypot(from.z) && from.length() > 0.5
+        };
+        let turn = std::f64::consts::TAU / f64::from(count);
+        let at_seam = |point: &&SurfacePoint| {
+            let from = point.position - eye;
+            // Sectors look along multiples of a turn and meet halfway between.
+            let within = (f64::atan2(-from.z, from.x) / turn).rem_euclid(1.0);
+            (within - 0.5).abs() * turn < 0.02
+        };
+        for half in [0.0, 0.02] {
+            let all: Vec<SurfacePoint> = points(&boxes, 20_000, half).iter().filter(seen).copied().collect();
+            let (few, judged) = wrong(&ray, &mast, eye, &all, 0.06);
+            assert!(judged > 2000 && few * 1000 <= judged, "{few} of {judged}, {count} sectors, {half}");
+            let seams: Vec<SurfacePoint> =
+                points(&boxes, 600_000, half).iter().filter(seen).filter(at_seam).copied().collect();
+            let (few, judged) = wrong(&ray, &mast, eye, &seams, 0.06);
+            assert!(judged > 500 && few * 200 <= judged, "{few} of {judged} at seams, {count} sectors, {half}");
+        }
+    }
+}
+
+/// Spots up to a half space, close over the ground.
+#[test]
+fn spots_as_wide_as_a_half_space_are_one_light() {
+    let eye = DVec3::new(0.3, 4.5, -0.2);
+    let boxes = town();
+    let triangles = soup(&boxes);
+    let geometry = truth(&triangles, boxes.len());
+    let spot = SpotView { eye, target: DVec3::new(0.9, 0.0, 0.4), near: 0.05, far: 60.0, ..SpotView::default() };
+    for (degrees, cos) in [(142.0f64, None), (170.0, None), (178.0, None), (178.0, Some(0.0))] {
+        let size = UVec2::splat(1024);
+        let view = View::spot(SpotView { full_angle_radians: degrees.to_radians(), size, ..spot }).unwrap();
+        let view = if cos.is_some() { view.with_cone(cos).unwrap() } else { view };
+        let casters = |_: &View, _: u32| triangles.iter().copied();
+        let light = Recipe::default().shadow_of(&[view], &LightUse::default(), casters).unwrap();
+        let ray = RayCast::everywhere(&geometry, eye.extend(1.0));
+        let inside = |point: &&SurfacePoint| {
+            let from = (point.position - eye).normalize();
+            view.ahead().dot(from) > view.cone().unwrap() + 0.01
+        };
+        for half in [0.0, 0.02] {
+            let all: Vec<SurfacePoint> = points(&boxes, 30_000, half).iter().filter(inside).copied().collect();
+            let (few, judged) = wrong(&ray, &*light.shadow, eye, &all, 0.06);
+            assert!(judged > 4000 && few * 1000 <= judged, "{few} of {judged}, {degrees} degrees, {half}");
+        }
     }
 }
 

@@ -173,7 +173,7 @@ pub const FIELDS: &[Field] = &[
         AUTO,
         Kind::Whole(1024),
         |values| values.maps,
-        "with `light`: points of the disc, each with a map; otherwise 8 to 64, by the width of its penumbra",
+        "with `light`: points of the disc, each with a map; otherwise 16 to 64, by the width of its penumbra",
         ""
     ),
     words!(

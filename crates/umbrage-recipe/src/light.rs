@@ -16,7 +16,7 @@ use umbrage_shadow::{Bounded, Mean, Shadow, Through};
 const WIDE: f64 = 0.342_020_143_325_668_7;
 
 /// Fewest and most points of a light with a size, where their number is not given.
-const POINTS: [u32; 2] = [8, 64];
+const POINTS: [u32; 2] = [16, 64];
 
 /// What a light's maps are made for, beside its view.
 #[derive(Clone, Copy, Debug, Default)]

@@ -33,7 +33,7 @@ mod shade;
 mod soup;
 
 pub use exposure::{expose, expose_deep, exposed_map, light_map, light_shadow};
-pub use lights::{bind_lights, light_maps};
+pub use lights::{bind_lights, light_maps, light_shadows};
 pub use picture::{Frame, NOTHING, Picture, picture, picture_where};
 pub use planar::{Ground, Planar};
 pub use receivers::receivers;

@@ -1,6 +1,6 @@
-use crate::light_map;
+use crate::{light_map, light_shadow};
 use umbrage_depth::{Map, Storage};
-use umbrage_recipe::{Recipe, RecipeError};
+use umbrage_recipe::{LightShadow, Recipe, RecipeError};
 use umbrage_scene::{Light, Scene};
 use umbrage_shadow::{Shadow, Unshadowed};
 
@@ -36,6 +36,28 @@ pub fn bind_lights(
         }
     };
     scene.lights.iter().enumerate().map(one).collect()
+}
+
+/// All of pass 1 of a scene at evenly spread times, one of them for a scene at rest: the shadow of each light, in their order, by the recipe of its own tree, or by `default`;
+/// `None` for lights that do not cast. Each light has all maps that its recipe wants of it ([`light_shadow`]).
+///
+/// # Errors
+/// A light's recipe that cannot be used, with the light's name.
+///
+/// # Panics
+/// As [`Soup::casters`](crate::Soup::casters).
+pub fn light_shadows(
+    moments: &[&Scene],
+    default: &Recipe,
+    storage: Storage,
+) -> Result<Vec<Option<LightShadow>>, RecipeError> {
+    let one = |light: &Light| {
+        let shadow = |recipe: Recipe| {
+            light_shadow(&recipe, moments, &light.view, storage).map_err(|error| of_light(error, light))
+        };
+        light.casts.then(|| own(light, default).and_then(shadow)).transpose()
+    };
+    moments.first().map_or(Ok(Vec::new()), |scene| scene.lights.iter().map(one).collect())
 }
 
 /// The recipe of a light's tree, or `default`.

@@ -4,10 +4,10 @@ use glam::{DVec3, UVec2, Vec3};
 use umbrage_depth::Storage;
 use umbrage_plane::Bias;
 use umbrage_recipe::{Recipe, bind};
-use umbrage_render::{Frame, Ground, Picture, Planar, bind_lights, light_maps, picture};
+use umbrage_render::{Frame, Ground, Picture, Planar, bind_lights, light_maps, light_shadows, picture};
 use umbrage_scene::tree::Tree;
 use umbrage_scene::{Scene, gallery};
-use umbrage_shadow::{Shadow, presets};
+use umbrage_shadow::{Shadow, Unshadowed, presets};
 
 fn small(mut scene: Scene, pixels: u32, texels: u32) -> Scene {
     scene.camera = scene.camera.with_size(UVec2::splat(pixels)).unwrap();
@@ -43,6 +43,30 @@ fn r87_18_every_light_s_tree_chooses_its_own_shadow_or_none() {
     scene.lights[2] = scene.lights[2].clone().with_tree(shadow("reeves87,samples=0"));
     let error = bind_lights(&scene, &maps, &default, Storage::Tiled).err().unwrap().to_string();
     assert!(error.contains("light \"blue\", samples = \"0\""), "{error}");
+}
+
+#[test]
+fn every_light_has_the_maps_that_its_own_recipe_wants() {
+    let mut scene = small(gallery::three_lights(), 64, 128);
+    let shadow = |recipe: &str| Tree::Product(vec![Tree::colour(Vec3::ONE), Tree::Shadow { recipe: recipe.into() }]);
+    scene.lights[0] = scene.lights[0].clone().with_tree(shadow("auto,light=2,maps=5"));
+    scene.lights[1] = scene.lights[1].clone().with_tree(Tree::colour(Vec3::ONE));
+    let lights = light_shadows(&[&scene], &"woo92,window=fitted".parse().unwrap(), Storage::Tiled).unwrap();
+    let maps: Vec<_> = lights.iter().map(|light| light.as_ref().map(|light| light.maps.len())).collect();
+    assert_eq!(maps, [Some(5), None, Some(1)]);
+    let fitted = lights[2].as_ref().unwrap().maps[0].view;
+    assert!(fitted.texel_world(1.0).element_product() < 0.9 * scene.lights[2].view.texel_world(1.0).element_product());
+    let shadows: Vec<Box<dyn Shadow>> = lights
+        .into_iter()
+        .map(|light| light.map_or(Box::new(Unshadowed) as Box<dyn Shadow>, |light| light.shadow))
+        .collect();
+    let seen = shot(&scene, &shadows);
+    let dark = |light: usize| seen.shadow[light].iter().sum::<f32>();
+    assert!(dark(0) > 20.0 && dark(1) == 0.0 && dark(2) > 20.0, "{} {} {}", dark(0), dark(1), dark(2));
+    scene.lights[2] = scene.lights[2].clone().with_tree(shadow("auto,light=-1"));
+    let error = light_shadows(&[&scene], &Recipe::default(), Storage::Tiled).unwrap_err().to_string();
+    assert!(error.starts_with("light \"blue\", light = \"-1\""), "{error}");
+    assert!(light_shadows(&[], &Recipe::default(), Storage::Tiled).unwrap().is_empty());
 }
 
 const PLANE: u32 = 1;

@@ -1,6 +1,6 @@
 //! Maps of facets as what every other map is.
 
-use super::{FacetMap, FacetTile, Facets, SHIFT, tile};
+use super::{FacetMap, Facets, SHIFT, tile};
 use crate::{DepthMap, Stored};
 use glam::IVec2;
 use umbrage_plane::{DepthRange, TexelRect, View};
@@ -36,7 +36,7 @@ impl DepthMap for FacetMap {
         let mut range = (!whole.encloses(rect)).then_some(DepthRange::NOTHING);
         for y in low.y..=high.y {
             for x in low.x..=high.x {
-                let tile = self.tiles[(y * self.grid.x + x) as usize].as_ref();
+                let tile = self.tiles.get((y * self.grid.x + x) as usize);
                 let own = tile.map_or(DepthRange::NOTHING, |tile| tile.range);
                 range = Some(range.map_or(own, |range| range.union(own)));
             }
@@ -53,10 +53,10 @@ impl DepthMap for FacetMap {
     }
 
     fn bytes(&self) -> usize {
-        self.tiles.iter().flatten().map(FacetTile::bytes).sum()
+        self.tiles.bytes()
     }
 
     fn allocated(&self) -> usize {
-        self.bytes() + size_of_val(self.tiles.as_slice()) + size_of::<Self>()
+        self.bytes() + self.tiles.directory() + size_of::<Self>()
     }
 }

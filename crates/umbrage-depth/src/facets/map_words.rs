@@ -46,7 +46,7 @@ impl FacetMap {
     #[must_use]
     pub fn to_words(&self) -> Vec<u32> {
         let mut words = Vec::new();
-        for tile in &self.tiles {
+        for tile in self.tiles.iter() {
             match tile {
                 Some(tile) => tile.write(&mut words),
                 None => words.push(0),

@@ -8,6 +8,7 @@ mod samples;
 mod source;
 mod tile;
 mod tile_words;
+mod tiles;
 mod words;
 
 use crate::{Stored, TILE, no_surface};
@@ -15,6 +16,7 @@ use glam::{DVec2, IVec2, UVec2};
 pub use known::Facets;
 pub use source::{FacetSample, FacetSource};
 pub use tile::{FacetBlock, FacetCells, FacetTile, NO_FACET};
+use tiles::Tiles;
 use umbrage_plane::{Affine, Decode, TexelRect, View};
 pub use words::FacetWordsError;
 
@@ -37,7 +39,7 @@ pub struct FacetMap {
     fine: u32,
     slots: u32,
     grid: UVec2,
-    tiles: Vec<Option<FacetTile>>,
+    tiles: Tiles,
 }
 
 /// What a facet map makes of keys: apart from the map, so that tiles can be packed before it exists.
@@ -73,7 +75,7 @@ impl FacetMap {
         let grid = view.size().map(|side| side.div_ceil(TILE));
         assert_eq!(tiles.len(), grid.element_product() as usize, "tiles of a map of {} texels", view.size());
         assert!(fine > 0 && slots > 0, "{fine} samples, {slots} slots");
-        Self { depths: FacetDepths::of(&view), stored, fine, slots, grid, tiles }
+        Self { depths: FacetDepths::of(&view), stored, fine, slots, grid, tiles: Tiles::new(tiles) }
     }
 
     /// Parts of a link of which one is remembered as where the surface changes.
@@ -93,7 +95,7 @@ impl FacetMap {
             return None;
         }
         let (tile, at) = (texel.as_uvec2() >> SHIFT, texel.as_uvec2() & (TILE - 1));
-        let kept = self.tiles[(tile.y * self.grid.x + tile.x) as usize].as_ref()?;
+        let kept = self.tiles.get((tile.y * self.grid.x + tile.x) as usize)?;
         Some((kept, (tile << SHIFT).as_ivec2(), at))
     }
 

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 use umbrage_depth::{Bbox, DepthMap, Map, Raw, Tiled};
 use umbrage_plane::{SurfacePoint, TexelRect, View};
-use umbrage_render::{Frame, bind_lights, light_maps, picture};
+use umbrage_render::{Frame, bind_lights, light_map, light_maps, picture};
 use umbrage_report::{Made, Measure, Panel, Role, Table};
 use umbrage_sample::Key;
 use umbrage_scene::{Scene, gallery};
@@ -288,8 +288,11 @@ fn storage(cx: &Context) -> anyhow::Result<Made> {
         let sum =
             |bytes: &dyn Fn(usize) -> usize| (0..maps.len()).map(bytes).sum::<usize>() as f64 / f64::from(1 << 20);
         let found = [sum(&|i| raws[i].bytes()), sum(&|i| Bbox::from(&raws[i]).bytes()), sum(&|i| maps[i].bytes())];
-        for (whose, values) in [("", found), ("paper: ", row.megabytes)] {
-            let cells = values.iter().map(|mb| format!("{mb:.2}"));
+        let facets = maps.iter().map(|map| facets_of(&stage.scene, map.view())).collect::<anyhow::Result<Vec<_>>>()?;
+        let facets = sum(&|i| facets[i].allocated());
+        for (whose, values, facets) in [("", found, format!("{facets:.2}")), ("paper: ", row.megabytes, String::new())]
+        {
+            let cells = values.iter().map(|mb| format!("{mb:.2}")).chain([facets]);
             rows.push(std::iter::once(format!("{whose}{}", row.name)).chain(cells).collect());
         }
         made.measures.push(Measure::exactly(&format!("{}: raw (V26)", row.name), found[0], "MB", row.megabytes[0]));
@@ -304,8 +307,9 @@ fn storage(cx: &Context) -> anyhow::Result<Made> {
                 .role(Role::Map),
         );
     }
-    let head = ["scene", "raw MB", "box MB", "32² tiles MB"].map(String::from).to_vec();
+    let head = ["scene", "raw MB", "box MB", "32² tiles MB", "facets MB"].map(String::from).to_vec();
     made.tables.push(Table { name: "megabytes".into(), head, rows });
+    planar(&mut made)?;
     let view = gallery::sphere_plane().lights[0].view.with_size(UVec2::splat(1024))?;
     let filled = |inside: &dyn Fn(glam::IVec2) -> bool| -> anyhow::Result<Raw> {
         let depth = |t| if inside(t) { 1.0 } else { f32::INFINITY };
@@ -320,6 +324,43 @@ fn storage(cx: &Context) -> anyhow::Result<Made> {
         Measure::exactly("disc of radius 160: tiles (V28)", Tiled::from(&disc).bytes() as f64, "bytes", 88.0 * 4096.0),
     ]);
     Ok(made)
+}
+
+/// Scenes of plane things, and how many times smaller than raw depths a map of their facets is to be: the boxes, under a light square to the ground, by
+/// as much as a file can pack them.
+const PLANAR: [(&str, fn() -> Scene, f64); 5] = [
+    ("box, slab", gallery::box_plane, 5.0),
+    ("contact box", gallery::contact_box, 5.0),
+    ("table", gallery::table, 5.0),
+    ("spot room", gallery::spot_room, 5.0),
+    ("overlapping boxes", gallery::overlapping_boxes, 40.0),
+];
+
+/// Which facet each texel sees instead of how far it is: the same depths, bit for bit.
+fn facets_of(scene: &Scene, view: &View) -> anyhow::Result<Map> {
+    Ok(light_map(&"auto,fine=1".parse()?, scene, view))
+}
+
+/// What facets save where they are larger than a few texels.
+fn planar(made: &mut Made) -> anyhow::Result<()> {
+    let mut rows = Vec::new();
+    for (name, make, least) in PLANAR {
+        let scene = make();
+        let view = scene.lights[0].view.with_size(UVec2::splat(1024))?;
+        let facets = facets_of(&scene, &view)?;
+        let raw = Raw::copy_of(&facets);
+        let zip = umbrage_io::encode_shadow_map(&raw)?.len() as f64;
+        let (all, whole) = (facets.allocated() as f64, raw.allocated() as f64);
+        let kilobytes = |bytes: f64| format!("{:.0}", bytes / 1024.0);
+        rows.push(vec![name.into(), kilobytes(whole), kilobytes(zip), kilobytes(all), format!("{:.1}", whole / all)]);
+        let measure = format!("{name}, 1024²: raw depths over facets");
+        made.measures.push(Measure::at_least(&measure, whole / all, "times", least));
+        let measure = format!("{name}, 1024²: facets over a file of depths, ZIP");
+        made.measures.push(Measure::at_most(&measure, all / zip, "times", 1.0));
+    }
+    let head = ["1024²", "raw KB", "EXR, ZIP KB", "facets KB", "raw over facets"].map(String::from).to_vec();
+    made.tables.push(Table { name: "facets".into(), head, rows });
+    Ok(())
 }
 
 /// Every n-th pixel, so that a picture is no more than `most` across.

@@ -20,13 +20,14 @@ pub const AREA: Figure = Figure {
 
 /// The radius of the lamp, world units, and what is asked to show it: caption, recipe, side of its maps.
 const RADIUS: f64 = 24.0;
-const SOFT: [(&str, &str, &str, u32); 6] = [
+const SOFT: [(&str, &str, &str, u32); 7] = [
     ("pcss", "PCSS by the light's size", "fernando,light=24,bias=1t", 512),
     ("burley", "Burley by the light's size", "burley,light=24", 512),
     ("auto-4", "auto: 4 maps of 128²", "auto,light=24,maps=4,across=1", 128),
     ("auto-16", "auto: 16 maps of 128²", "auto,light=24,maps=16,across=1", 128),
     ("auto-64", "auto: 64 maps of 128²", "auto,light=24,maps=64,across=1", 128),
     ("auto-16-large", "auto: 16 maps of 512²", "auto,light=24,maps=16,across=1", 512),
+    ("auto", "auto: as many maps of 128² as it takes by itself", "auto,light=24,across=1", 128),
 ];
 
 fn area(cx: &Context) -> anyhow::Result<Made> {
@@ -57,6 +58,9 @@ fn area(cx: &Context) -> anyhow::Result<Made> {
         Measure::at_most("16 maps of 128²: kilobytes", found[3].1, "KB", 1536.0),
         Measure::at_most("16 maps of 128² over the better filter of one map: error", found[3].0 / best, "times", 1.0),
         Measure::at_most("64 maps of 128² over the better filter of one map: error", found[4].0 / best, "times", 0.5),
+        Measure::at_most("as many maps of 128² as it takes by itself: error", found[6].0, "rms", 0.011)
+            .full_size(cx.quick),
+        Measure::at_most("as many maps of 128² as it takes by itself: kilobytes", found[6].1, "KB", 1536.0),
         Measure::info("4 maps of 128²: error", found[2].0, "rms"),
         Measure::info("16 maps of 512²: error", found[5].0, "rms"),
         Measure::info("PCSS: error", found[0].0, "rms"),

@@ -81,14 +81,14 @@ impl Judge {
         }
     }
 
-    /// The worst pixels of one surface: their indices, the largest error first.
-    pub fn worst(&self, picture: &Picture, count: usize) -> Vec<usize> {
-        let many = &*self.many;
-        let error = |i: usize| (picture.shadow[0][i] - many.picture.shadow[0][i]).abs();
-        let mut judged: Vec<usize> = (0..many.one.len()).filter(|&i| many.one[i]).collect();
-        judged.sort_by(|a, b| error(*b).total_cmp(&error(*a)).then(a.cmp(b)));
-        judged.truncate(count);
-        judged
+    /// Pixels of one surface, all of it facing the light.
+    pub fn judged(&self) -> &[bool] {
+        &self.many.one
+    }
+
+    /// Those of them that are more than three pixels from truth's edges.
+    pub fn sure(&self) -> &[bool] {
+        &self.many.sure
     }
 
     /// A recipe's picture, and all bytes of its map for each texel.

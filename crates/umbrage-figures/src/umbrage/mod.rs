@@ -11,6 +11,7 @@ mod methods;
 mod paging;
 mod sheet;
 mod softness;
+mod where_wrong;
 
 use crate::figure::Figure;
 
@@ -29,4 +30,5 @@ pub const FIGURES: &[&Figure] = &[
     &auto::BYTES,
     &area::AREA,
     &kinds::KINDS,
+    &where_wrong::WHERE,
 ];

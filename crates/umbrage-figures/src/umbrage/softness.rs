@@ -7,8 +7,7 @@ use crate::stage::set::Set;
 use glam::{DVec3, UVec2, Vec3};
 use umbrage_oracle::metrics::Profile;
 use umbrage_oracle::{Geometry, predict};
-use umbrage_recipe::Recipe;
-use umbrage_render::{Frame, light_map};
+use umbrage_render::Frame;
 use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::{Made, Measure};
 use umbrage_scene::{Light, gallery};
@@ -43,8 +42,7 @@ fn rms(a: &Profile, b: &Profile) -> f64 {
 }
 
 fn bound(cx: &Context, set: &Set, recipe: &str) -> anyhow::Result<Box<dyn Shadow>> {
-    let recipe: Recipe = recipe.parse()?;
-    Ok(recipe.bind(light_map(&recipe, &set.scene, &set.scene.lights[0].view), cx.storage)?)
+    set.shadow(cx, recipe)
 }
 
 /// A size of the light under one recipe: widths and error against rays.
@@ -73,13 +71,14 @@ fn softness(cx: &Context) -> anyhow::Result<Made> {
     let whole = |radius: f64| predict::expected_penumbra_width(2.0 * radius, occluder, floor);
     let max = burley_max(&view, SET, occluder);
     let constant = whole(SET) / 2.0 / view.texel_world(floor).x;
-    let recipes: [(&str, &dyn Fn(f64) -> String); 4] = [
+    let recipes: [(&str, &dyn Fn(f64) -> String); 5] = [
         ("Burley by the light's size", &|radius| format!("burley,light={radius},nearest=320,search=64,blur=64")),
         ("Burley, radius set for 12", &|_| format!("burley,max={max:.3}t,search=64,blur=64")),
         ("Fernando, radius set for 12", &|_| format!("fernando,max={max:.3}t,bias=1,search=64,blur=64")),
         ("constant radius, set for 12", &|_| {
             format!("reeves87,pattern=disc,samples=64,res-factor=0,min-size={constant:.3},bias=1")
         }),
+        ("auto, maps by the light's size", &|radius| format!("auto,light={radius}")),
     ];
     let mut widths = Plot::new(
         "Width of the edge",
@@ -125,13 +124,22 @@ fn softness(cx: &Context) -> anyhow::Result<Made> {
                 "share",
             ));
         }
+        if recipe(SET).starts_with("auto") {
+            for (radius, found) in RADII.iter().zip(&found) {
+                let ratio = found.width / found.exact;
+                let name = format!("auto, lamp of radius {radius}: width over the area light's");
+                made.measures.push(Measure::within(&name, ratio, "ratio", 0.95, 1.05));
+            }
+            let most = found.iter().map(|found| found.error).fold(0.0, f64::max);
+            made.measures.push(Measure::at_most("auto: largest rms error across the edge", most, "share", 0.03));
+        }
         widths = widths.add(Series::line(name, line(&|found| found.width)));
         errors = errors.add(Series::line(name, line(&|found| found.error)));
     }
     sky(cx, &mut made)?;
     made.plots = vec![("width".into(), widths.svg()), ("error".into(), errors.svg())];
     let truth = set.truth_disc(cx, &Frame::CENTRES, SET);
-    for (index, stem) in ["light", "burley", "fernando", "constant"].into_iter().enumerate() {
+    for (index, stem) in ["light", "burley", "fernando", "constant", "auto"].into_iter().enumerate() {
         let (name, recipe) = (recipes[index].0, recipes[index].1(SET));
         let picture = set.by(cx, &recipe, &Frame::CENTRES)?;
         made.panels.push(shadow_panel(stem, name, &picture).with("recipe", recipe).against("truth"));

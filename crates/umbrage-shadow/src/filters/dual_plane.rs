@@ -5,7 +5,7 @@ use crate::{Filter, OnPlane, Probe, Query};
 use fearless_simd::Simd;
 use glam::{DVec2, IVec2, Vec2};
 use umbrage_depth::{DepthMap, FacetSample, FacetSource, Facets};
-use umbrage_plane::{Affine, Cells, TexelRect, View};
+use umbrage_plane::{Affine, Bias, Cells, TexelRect, View};
 use umbrage_sample::EveryTexel;
 
 /// Shadow without a bias over a map of facets ([`FacetMap`](umbrage_depth::FacetMap)): the receiver's tangent plane is compared with the caster's own plane, and edges run
@@ -18,7 +18,8 @@ use umbrage_sample::EveryTexel;
 /// `across` × `across` places, of those that are its [surface](Cells).
 ///
 /// Umbrage's own. Casters' planes are after Dou et al. 2014, edges in texels after Sen, Cammarano & Hanrahan 2003.
-/// Over a map that knows no facets it compares the receiver's plane at every texel of its region, which is the best that such a map can give.
+/// Over a map that knows no facets it compares the receiver's plane at every texel of its region, which is the best that such a map can give; over a deep one as much nearer
+/// as the plane's own slope makes of a texel's samples there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct DualPlane {
@@ -59,7 +60,9 @@ impl Filter for DualPlane {
             Some(Facets::Several(maps)) => self.over_several(maps, query),
             None => {
                 let region = query.region(1.0, 1.0);
-                return query.share(&region, &EveryTexel, &OnPlane::default());
+                // A deep map's texel is the mean of samples up to 7/16 of a texel away along both axes: on a slope along its diagonal, 7/16 · √2 steps.
+                let bias = if query.map().translucent().is_some() { Bias::Steps(0.625) } else { Bias::ZERO };
+                return query.share(&region, &EveryTexel, &OnPlane::biased(bias));
             }
         };
         query.count(looked);
