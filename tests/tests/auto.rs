@@ -8,7 +8,7 @@ use umbrage_plane::{Cells, Kind, Rules, Sectors, SpotView, SurfacePoint, View, c
 use umbrage_raster::Triangle;
 use umbrage_recipe::{LightUse, Recipe};
 use umbrage_sample::Key;
-use umbrage_shadow::{Around, DualPlane, Shadow, ShadowMap};
+use umbrage_shadow::{Around, Crossing, DualPlane, PlaceJudged, Probe, Shadow, ShadowMap};
 use umbrage_tests::laws::Subject;
 
 const KEY: Key = Key::new(5, 0, 0);
@@ -290,6 +290,82 @@ fn a_region_is_asked_where_it_is_its_surface() {
             assert!((found - want).abs() < 1e-6, "{columns:?}: {found}, not {want}, of {across} places");
         }
     }
+}
+
+/// Keeps what it is told.
+#[derive(Default)]
+struct Told(Vec<PlaceJudged>);
+
+impl Probe for Told {
+    fn explains(&self) -> bool {
+        true
+    }
+    fn judged(&mut self, place: &PlaceJudged) {
+        self.0.push(place.clone());
+    }
+}
+
+#[test]
+fn a_probe_is_told_why_each_place_is_lit_or_dark() {
+    let boxes = town();
+    let triangles = soup(&boxes);
+    let eye = DVec3::new(9.0, 14.0, 5.0);
+    let view = View::perspective(eye, DVec3::ZERO, DVec3::Z, 1.0, 2.0, 60.0, UVec2::splat(256)).unwrap();
+    let bake = |view: &View| bake_refined(view, triangles.iter().copied(), &Refinement::default()).map;
+    let spot = ShadowMap { filter: DualPlane::default(), map: bake(&view) };
+    let lamp =
+        Around::new(DualPlane::default(), cube_views(eye, 2.0, 60.0, 512).unwrap().map(|face| bake(&face)).to_vec());
+    let lamp = lamp.unwrap();
+    let (mut links, mut planes, mut halfway, mut mixed) = (0, 0, 0, 0);
+    for point in points(&boxes, 6000, 0.05) {
+        for around in [false, true] {
+            let (mut told, mut out) = (Told::default(), [0.0]);
+            let at = std::slice::from_ref(&point);
+            if around {
+                lamp.fractions_probed(at, KEY, &mut out, &mut told)
+            } else {
+                spot.fractions_probed(at, KEY, &mut out, &mut told)
+            }
+            let dark: f32 = told.0.iter().filter(|place| place.dark).map(|place| place.weight).sum();
+            let all: f32 = told.0.iter().map(|place| place.weight).sum();
+            assert!((dark / all - out[0]).abs() < 1e-6, "{dark} of {all}, not {}", out[0]);
+            for place in &told.0 {
+                for vote in &place.votes {
+                    assert_eq!(vote.dark, vote.at_sample > vote.passed && vote.at_place > vote.passed, "{vote:?}");
+                }
+                let votes = place.votes.map(|vote| vote.dark);
+                if let Some(ruled) = place.ruled {
+                    assert_eq!(place.dark, ruled);
+                } else if votes == [votes[0]; 4] {
+                    assert_eq!(place.dark, votes[0]);
+                } else {
+                    mixed += 1;
+                }
+                for (crossing, (from, to)) in place.crossings.iter().zip([(0, 1), (2, 3), (0, 2), (1, 3)]) {
+                    assert_eq!(crossing.is_some(), votes[from] != votes[to]);
+                    assert!(crossing.is_none_or(|crossing| (0.0..=1.0).contains(&crossing.place())));
+                    match crossing {
+                        Some(Crossing::Link(_)) => links += 1,
+                        Some(Crossing::Planes(_)) => planes += 1,
+                        Some(Crossing::Halfway) => halfway += 1,
+                        None => {}
+                    }
+                }
+            }
+        }
+    }
+    assert!(mixed > 1000 && links > 500 && planes > 100, "{mixed} mixed, {links} {planes} {halfway}");
+    // A board 2 over a floor that is 10 from a sun: as much behind the board as it is far from it.
+    let sun = View::orthographic(DVec3::Y * 10.0, DVec3::ZERO, DVec3::NEG_Z, 4.0, 1.0, 20.0, UVec2::splat(64)).unwrap();
+    let board =
+        bake_refined(&sun, cuboid(DVec3::new(-1.0, 1.5, -1.0), DVec3::new(1.0, 2.0, 1.0), 0), &Refinement::default());
+    let shadow = ShadowMap { filter: DualPlane::default(), map: board.map };
+    let (mut told, mut out) = (Told::default(), [0.0]);
+    shadow.fractions_probed(&[SurfacePoint::at(Vec3::new(0.3, 0.0, 0.2), Vec3::Y)], KEY, &mut out, &mut told);
+    let vote = &told.0[0].votes[0];
+    assert_eq!((told.0.len(), vote.at_sample, vote.at_place, out[0]), (1, 2.0, 2.0, 1.0));
+    // Half a texel of 1/8.
+    assert!((vote.passed - 0.0625).abs() < 1e-6, "{}", vote.passed);
 }
 
 #[test]

@@ -253,7 +253,7 @@ impl Made<'_> {
     }
 }
 
-/// How many points a light of a size is taken for: one for every two texels of its widest penumbra, which is that of the nearest caster on the farthest
+/// How many points a light of a size is taken for: one for every texel of its widest penumbra, which is that of the nearest caster on the farthest
 /// receiver.
 fn points_of(view: &View, radius: f32, casters: impl Iterator<Item = Caster>, receivers: Option<&[DVec3]>) -> u32 {
     let zeta = |at: &DVec3| -view.world_to_eye().transform_point3(*at).z;
@@ -269,7 +269,7 @@ fn points_of(view: &View, radius: f32, casters: impl Iterator<Item = Caster>, re
     let spread = if view.is_perspective() { (farthest - nearest) / nearest } else { farthest - nearest };
     let texels = 2.0 * f64::from(radius) * spread / view.texel_world(farthest).min_element();
     // NaN and nothing at all are the fewest.
-    (((0.5 * texels.max(0.0)) as u32).min(POINTS[1])).next_power_of_two().clamp(POINTS[0], POINTS[1])
+    ((texels.max(0.0) as u32).min(POINTS[1])).next_power_of_two().clamp(POINTS[0], POINTS[1])
 }
 
 fn of_view(field: &str, value: &str, error: &dyn fmt::Display) -> RecipeError {

@@ -50,6 +50,6 @@ pub use lights::{
 };
 pub use mean::weighted_mean;
 pub use presets::{Preset, StoredError};
-pub use probe::{Counters, Probe};
+pub use probe::{Counters, Crossing, PlaceJudged, Probe, Vote};
 pub use query::{Filter, Query};
 pub use surfaces::{Met, Seen, Surfaces};

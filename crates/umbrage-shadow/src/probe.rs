@@ -1,4 +1,62 @@
+use glam::DVec2;
+use umbrage_depth::FacetSample;
 use umbrage_plane::Place;
+
+/// One place of a region, as [`DualPlane`](crate::DualPlane) judged it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlaceJudged {
+    /// Where it is, texels of the map.
+    pub at: DVec2,
+    /// How much of the region it stands for, beside the region's other places.
+    pub weight: f32,
+    /// Whether the view's rules call it dark, where they settle it; votes do not count then.
+    pub ruled: Option<bool>,
+    /// What the samples around it say: upper left, upper right, lower left, lower right.
+    pub votes: [Vote; 4],
+    /// Where the sides between samples of different votes are crossed by the shadow's edge: upper and lower from the left, left and right from above.
+    pub crossings: [Option<Crossing>; 4],
+    /// The answer.
+    pub dark: bool,
+}
+
+/// What a sample of a map of facets says of a place: dark where the receiver's plane lies behind the facet's by more than `passed` both at the sample and at the
+/// place. Distances are world units along the light's axis, by what a step of depth is there at the receiver; −∞ where the sample sees nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vote {
+    /// The facet's plane, where it was sampled, and how wide the sample is.
+    pub sample: FacetSample,
+    /// How far the receiver's plane lies behind the facet's where the sample was taken.
+    pub at_sample: f64,
+    /// The same at the place that is asked about.
+    pub at_place: f64,
+    /// What both must be more than: what the sample's width and the gentler slope leave open, and roundings.
+    pub passed: f64,
+    /// What it says.
+    pub dark: bool,
+}
+
+/// Where the side between two samples is crossed, 0 at the first and 1 at the second, and how that is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Crossing {
+    /// The map saw there one surface end before the other.
+    Link(f64),
+    /// The receiver's plane passes there from behind one facet to before the other.
+    Planes(f64),
+    /// Nothing is known.
+    Halfway,
+}
+
+impl Crossing {
+    /// Where it is.
+    #[inline(always)]
+    #[must_use]
+    pub fn place(self) -> f64 {
+        match self {
+            Self::Link(place) | Self::Planes(place) => place,
+            Self::Halfway => 0.5,
+        }
+    }
+}
 
 /// Is told what a filter does, for counters and for explanations. Every method does nothing unless overridden, and `()` is the probe that costs nothing.
 pub trait Probe {
@@ -20,6 +78,16 @@ pub trait Probe {
     /// A region that was compared on its tangent plane (WM94-15).
     #[inline(always)]
     fn virtual_sampled(&mut self) {}
+    /// Whether [`Probe::judged`] is to be told of every place, which takes longer than the answer itself.
+    #[inline(always)]
+    fn explains(&self) -> bool {
+        false
+    }
+    /// A place of a region over a map of facets: what the samples around it say, and why it is lit or dark. Told only when [`Probe::explains`].
+    #[inline(always)]
+    fn judged(&mut self, place: &PlaceJudged) {
+        let _ = place;
+    }
     /// A comparison by whole units first; `conclusive` when they settled it (W92-7).
     #[inline(always)]
     fn compared(&mut self, conclusive: bool) {

@@ -1,7 +1,7 @@
 use super::{Shadow, Unshadowed, by_channel, same_length};
 use crate::query::answer;
 use crate::surfaces::Channel;
-use crate::{Filter, Query};
+use crate::{Filter, Probe, Query};
 use fearless_simd::Simd;
 use glam::{DVec2, DVec3, IVec2, Vec3};
 use std::borrow::Cow;
@@ -83,7 +83,15 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
         self.maps.iter().map(DepthMap::bytes).sum()
     }
 
-    fn batch(&self, channel: Channel, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
+    /// [`Shadow::fractions`], observed by `probe` (spec X-6).
+    ///
+    /// # Panics
+    /// As [`Shadow::fractions`].
+    pub fn fractions_probed<P: Probe>(&self, at: &[SurfacePoint], key: Key, out: &mut [f32], probe: &mut P) {
+        self.batch(Channel::All, at, key, out, probe);
+    }
+
+    fn batch<P: Probe>(&self, channel: Channel, at: &[SurfacePoint], key: Key, out: &mut [f32], probe: &mut P) {
         same_length(at, out);
         vectorized!(simd => {
             let eye = self.maps[0].view().light().truncate();
@@ -92,10 +100,11 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
                 *fraction = match self.evaluate {
                     Evaluate::Own => {
                         let own = nearest(&self.maps, point.position - eye);
-                        self.ask(simd, &Face { maps: &self.maps, own }, channel, point, key)
+                        self.ask(simd, &Face { maps: &self.maps, own }, channel, point, key, probe)
                     }
                     Evaluate::Every => {
-                        self.maps.iter().map(|map| self.within(simd, map, channel, point, key)).fold(0.0, f32::max)
+                        let within = |map: &M| self.within(simd, map, channel, point, key, probe);
+                        self.maps.iter().map(within).fold(0.0, f32::max)
                     }
                 };
             }
@@ -103,19 +112,38 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
     }
 
     #[inline(always)]
-    fn ask<S: Simd, N: DepthMap>(&self, simd: S, map: &N, channel: Channel, point: &SurfacePoint, key: Key) -> f32 {
+    fn ask<S: Simd, N: DepthMap, P: Probe>(
+        &self,
+        simd: S,
+        map: &N,
+        channel: Channel,
+        point: &SurfacePoint,
+        key: Key,
+        probe: &mut P,
+    ) -> f32 {
         match map.view().receiver(point) {
-            Ok(receiver) => Query::new(simd, map, &receiver, key, &mut ()).of_channel(channel).ask(&self.filter),
-            Err(place) => answer(map.view().rules().verdict(place)).unwrap_or(0.0),
+            Ok(receiver) => Query::new(simd, map, &receiver, key, probe).of_channel(channel).ask(&self.filter),
+            Err(place) => {
+                probe.placed(place);
+                answer(map.view().rules().verdict(place)).unwrap_or(0.0)
+            }
         }
     }
 
     /// The answer of one view, 0 for a point that it does not see.
     #[inline(always)]
-    fn within<S: Simd>(&self, simd: S, map: &M, channel: Channel, point: &SurfacePoint, key: Key) -> f32 {
+    fn within<S: Simd, P: Probe>(
+        &self,
+        simd: S,
+        map: &M,
+        channel: Channel,
+        point: &SurfacePoint,
+        key: Key,
+        probe: &mut P,
+    ) -> f32 {
         match map.view().receiver(point) {
             Ok(receiver) if map.view().locate(receiver.texel.as_vec2()) == Place::Inside => {
-                Query::new(simd, map, &receiver, key, &mut ()).of_channel(channel).ask(&self.filter)
+                Query::new(simd, map, &receiver, key, probe).of_channel(channel).ask(&self.filter)
             }
             _ => 0.0,
         }
@@ -124,7 +152,7 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
 
 impl<F: Filter, M: DepthMap> Shadow for Around<F, M> {
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
-        self.batch(Channel::All, at, key, out);
+        self.batch(Channel::All, at, key, out, &mut ());
     }
 
     fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
@@ -132,7 +160,7 @@ impl<F: Filter, M: DepthMap> Shadow for Around<F, M> {
             return Unshadowed.transmittances(at, key, fractions, out);
         }
         same_length(at, fractions);
-        by_channel(at, out, |channel, dark| self.batch(channel, at, key, dark));
+        by_channel(at, out, |channel, dark| self.batch(channel, at, key, dark, &mut ()));
     }
 }
 

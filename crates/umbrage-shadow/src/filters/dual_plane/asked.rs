@@ -1,91 +1,17 @@
-//! Two planes instead of a bias: the caster's own and the receiver's, compared at both ends.
+//! A receiver asked of what knows facets: votes of samples, and the edge between those that disagree.
 
+use super::parameters::DualPlane;
 use crate::query::answer;
-use crate::{Filter, OnPlane, Probe, Query};
+use crate::{Crossing, Probe, Query};
 use fearless_simd::Simd;
-use glam::{DVec2, IVec2, Vec2};
-use umbrage_depth::{DepthMap, FacetSample, FacetSource, Facets};
-use umbrage_plane::{Affine, Bias, Cells, TexelRect, View};
-use umbrage_sample::EveryTexel;
-
-/// Shadow without a bias over a map of facets ([`FacetMap`](umbrage_depth::FacetMap)): the receiver's tangent plane is compared with the caster's own plane, and edges run
-/// between the samples of a texel, not along its border.
-///
-/// A sample of the map calls a place of the receiver dark when the receiver's plane lies behind the sample's **both** at the sample's centre and at
-/// the place itself: convex folds pass the first test, concave folds the second. What both must pass by is not a bias but what a sample cannot
-/// know: half a sample's width and a quarter of the gentler slope over it. Of the four samples around a place that disagree, the
-/// map's links say where between two of them the surface changes, and marching squares where the edge runs. A region is the mean of
-/// `across` × `across` places, of those that are its [surface](Cells).
-///
-/// Umbrage's own. Casters' planes are after Dou et al. 2014, edges in texels after Sen, Cammarano & Hanrahan 2003.
-/// Over a map that knows no facets it compares the receiver's plane at every texel of its region, which is the best that such a map can give; over a deep one as much nearer
-/// as the plane's own slope makes of a texel's samples there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct DualPlane {
-    /// Places along each side of the region.
-    pub across: u32,
-    /// What a sample must pass by for its width: in widths of the sample. ½ is half of it.
-    pub width_term: f64,
-    /// The same for slope: in changes of depth over a sample's width along both axes, of the gentler of the two planes.
-    pub slope_term: f64,
-    /// The least width of a sample for both terms, in widths of the region: a region's tangent plane leaves a curved surface toward its
-    /// sides.
-    pub footprint_term: f64,
-}
-
-impl Default for DualPlane {
-    fn default() -> Self {
-        Self { across: 4, width_term: 0.5, slope_term: 0.25, footprint_term: 0.25 }
-    }
-}
-
-umbrage_plane::builders!([] DualPlane {
-    with_across across: u32,
-    with_width_term width_term: f64,
-    with_slope_term slope_term: f64,
-    with_footprint_term footprint_term: f64,
-});
-
-impl Filter for DualPlane {
-    #[inline(always)]
-    fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32 {
-        if query.receiver().axes == [Vec2::ZERO; 2]
-            && let Some(dark) = query.placed(query.receiver().texel.as_vec2())
-        {
-            return dark;
-        }
-        let (fraction, looked) = match query.map().facets() {
-            Some(Facets::Map(map)) => Asked::new(self, map, query).fraction(),
-            Some(Facets::Several(maps)) => self.over_several(maps, query),
-            None => {
-                let region = query.region(1.0, 1.0);
-                // A deep map's texel is the mean of samples up to 7/16 of a texel away along both axes: on a slope along its diagonal, 7/16 · √2 steps.
-                let bias = if query.map().translucent().is_some() { Bias::Steps(0.625) } else { Bias::ZERO };
-                return query.share(&region, &EveryTexel, &OnPlane::biased(bias));
-            }
-        };
-        query.count(looked);
-        fraction
-    }
-}
-
-impl DualPlane {
-    /// Maps around a light, whose samples beyond a seam are brought over from the neighbour.
-    #[inline(never)]
-    fn over_several<'a, S: Simd, M: DepthMap, P: Probe>(
-        &self,
-        maps: &'a dyn FacetSource,
-        query: &Query<'a, S, M, P>,
-    ) -> (f32, u32) {
-        Asked::new(self, maps, query).fraction()
-    }
-}
+use glam::{DVec2, IVec2};
+use umbrage_depth::{DepthMap, FacetSample, FacetSource};
+use umbrage_plane::{Affine, Cells, TexelRect, View};
 
 /// A receiver asked of what knows facets.
-struct Asked<'a, F: ?Sized> {
-    map: &'a F,
-    view: &'a View,
+pub(super) struct Asked<'a, F: ?Sized> {
+    pub map: &'a F,
+    pub view: &'a View,
     /// The receiver's tangent plane, and how fast its key changes, over both axes together.
     plane: Affine,
     steep: f64,
@@ -104,17 +30,19 @@ struct Asked<'a, F: ?Sized> {
     least: f64,
     /// Roundings of what is compared.
     rounding: f64,
+    /// Change of the key per world unit along the axis of view, at the receiver.
+    pub per_world: f64,
 }
 
 /// What a sample says before a place is named.
 #[derive(Clone, Copy)]
-struct Voter {
+pub(super) struct Voter {
     /// How far the receiver's plane lies behind the sample's, as a key over texels, less what it must pass by.
-    behind: Affine,
+    pub behind: Affine,
     /// The same where the sample was taken.
-    there: f64,
+    pub there: f64,
     /// What it must pass by.
-    passed: f64,
+    pub passed: f64,
 }
 
 impl Voter {
@@ -123,7 +51,7 @@ impl Voter {
 
     /// Whether the sample calls a place dark.
     #[inline(always)]
-    fn dark(&self, at: DVec2) -> bool {
+    pub fn dark(&self, at: DVec2) -> bool {
         self.there > 0.0 && self.behind.at(at) > 0.0
     }
 }
@@ -135,10 +63,10 @@ const AT_HAND: i32 = 9;
 const MOST_AGREED: f64 = 16.0;
 
 /// Beyond so many samples from the origin, and at NaN, no map has one.
-const FAR: f64 = 1e9;
+pub(super) const FAR: f64 = 1e9;
 
 /// The samples under a region.
-struct Grid<'a, 'b, F: ?Sized> {
+pub(super) struct Grid<'a, 'b, F: ?Sized> {
     asked: &'b Asked<'a, F>,
     /// The finer grid's column and row of the first, and columns.
     rect: TexelRect,
@@ -147,9 +75,10 @@ struct Grid<'a, 'b, F: ?Sized> {
 
 impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
     #[inline(always)]
-    fn new<S: Simd, M: DepthMap, P: Probe>(filter: &DualPlane, map: &'a F, query: &Query<'a, S, M, P>) -> Self {
+    pub fn new<S: Simd, M: DepthMap, P: Probe>(filter: &DualPlane, map: &'a F, query: &Query<'a, S, M, P>) -> Self {
         let (view, receiver) = (query.view(), query.receiver());
         let zeta = -receiver.eye.z;
+        let per_world = view.key_per_world(zeta);
         let plane = view.affine(receiver.eye, receiver.normal).unwrap_or_else(|| Affine::constant(view.key(zeta)));
         let most = view.size().as_dvec2() * 0.125;
         let axes = receiver.axes.map(|axis| axis.as_dvec2().clamp(-most, most));
@@ -174,7 +103,8 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
             cells,
             part,
             across: if wide == 0.0 { 1 } else { filter.across.max(1) },
-            width: filter.width_term * (texel.x * texel.y).sqrt() * view.key_per_world(zeta),
+            width: filter.width_term * (texel.x * texel.y).sqrt() * per_world,
+            per_world,
             slope: filter.slope_term,
             least: filter.footprint_term * wide,
             rounding: plane.at(receiver.texel).abs() * 1e-14,
@@ -183,7 +113,7 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
 
     /// The fraction in shadow, and how many samples were looked at.
     #[inline(always)]
-    fn fraction(&self) -> (f32, u32) {
+    pub fn fraction(&self) -> (f32, u32) {
         let (centre, axes) = self.part;
         let reach = axes[0].abs() + axes[1].abs();
         let fine = f64::from(self.map.fine());
@@ -226,7 +156,7 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
     }
 
     #[inline(always)]
-    fn voter(&self, sample: &FacetSample) -> Voter {
+    pub fn voter(&self, sample: &FacetSample) -> Voter {
         let plane = &sample.plane;
         if plane.c == f64::INFINITY {
             return Voter::NOTHING;
@@ -240,30 +170,43 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
         Voter { behind, there: behind.at(sample.at), passed }
     }
 
-    /// The places of the region, and the answer of each that the view's rules settle.
+    /// The places of the region that are its surface, each with its weight.
     #[inline(always)]
-    fn places(&self, inside: bool, mut dark: impl FnMut(DVec2) -> bool) -> f32 {
+    pub fn each_place(&self, mut each: impl FnMut(DVec2, f32)) {
         let across = self.across;
         let offset = |i: u32| f64::from(2 * i + 1) / f64::from(across) - 1.0;
-        let mut answer = |at: DVec2| {
-            let ruled = if inside { None } else { answer(self.view.rules().verdict(self.view.locate(at.as_vec2()))) };
-            ruled.unwrap_or_else(|| f32::from(u8::from(dark(at))))
-        };
-        if across == 1 {
-            return answer(self.texel);
-        }
-        let (mut sum, mut all) = (0.0, 0.0);
-        for j in 0..across {
+        let mut any = false;
+        for j in 0..if across == 1 { 0 } else { across } {
             let row = self.middle + self.axes[1] * offset(j);
             for i in 0..across {
                 let share = self.cells.share(i, j, across);
                 if share > 0.0 {
-                    all += share;
-                    sum += share * answer(row + self.axes[0] * offset(i));
+                    any = true;
+                    each(row + self.axes[0] * offset(i), share);
                 }
             }
         }
-        if all > 0.0 { sum / all } else { answer(self.texel) }
+        if !any {
+            each(self.texel, 1.0);
+        }
+    }
+
+    /// The answer of a place that the view's rules settle.
+    #[inline(always)]
+    pub fn ruled(&self, at: DVec2) -> Option<f32> {
+        answer(self.view.rules().verdict(self.view.locate(at.as_vec2())))
+    }
+
+    /// The mean over the places of the region; `dark` is asked about those that the view's rules do not settle.
+    #[inline(always)]
+    fn places(&self, inside: bool, mut dark: impl FnMut(DVec2) -> bool) -> f32 {
+        let (mut sum, mut all) = (0.0, 0.0);
+        self.each_place(|at, share| {
+            let ruled = if inside { None } else { self.ruled(at) };
+            all += share;
+            sum += share * ruled.unwrap_or_else(|| f32::from(u8::from(dark(at))));
+        });
+        sum / all
     }
 
     /// A large region: the map is asked anew for each place.
@@ -277,7 +220,7 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
 }
 
 impl<'a, 'b, F: FacetSource + ?Sized> Grid<'a, 'b, F> {
-    fn new(asked: &'b Asked<'a, F>, rect: TexelRect) -> Self {
+    pub fn new(asked: &'b Asked<'a, F>, rect: TexelRect) -> Self {
         let mut voters = [Voter::NOTHING; (AT_HAND * AT_HAND) as usize];
         for (at, voter) in rect.texels().zip(&mut voters) {
             *voter = asked.voter(&asked.map.sample(at));
@@ -298,7 +241,7 @@ impl<'a, 'b, F: FacetSource + ?Sized> Grid<'a, 'b, F> {
 
     /// Whether a place is dark.
     #[inline(always)]
-    fn dark(&self, at: DVec2) -> bool {
+    pub fn dark(&self, at: DVec2) -> bool {
         let place = at * f64::from(self.asked.map.fine()) - 0.5;
         // Roundings of a place at the region's rim.
         let corner = place.floor().as_ivec2().clamp(self.rect.min, self.rect.max - 2);
@@ -315,7 +258,7 @@ impl<'a, 'b, F: FacetSource + ?Sized> Grid<'a, 'b, F> {
     fn shape(&self, corner: IVec2, votes: [bool; 4], within: DVec2) -> bool {
         let [a, b, c, d] = votes;
         let dark = votes.iter().filter(|vote| **vote).count();
-        let crossed = |from: usize, to: usize| self.crossing(corner, from, to);
+        let crossed = |from: usize, to: usize| self.crossing(corner, from, to).place();
         match dark {
             // One corner stands alone.
             1 | 3 => {
@@ -340,7 +283,7 @@ impl<'a, 'b, F: FacetSource + ?Sized> Grid<'a, 'b, F> {
     /// Whether a place lies beyond the line that cuts a corner of a cell off.
     fn beyond(&self, cell: IVec2, corner: usize, within: DVec2) -> bool {
         let from_corner = |to: usize| {
-            let place = self.crossing(cell, corner.min(to), corner.max(to));
+            let place = self.crossing(cell, corner.min(to), corner.max(to)).place();
             if corner < to { place } else { 1.0 - place }
         };
         let (p, q) = (from_corner(corner ^ 1), from_corner(corner ^ 2));
@@ -352,16 +295,21 @@ impl<'a, 'b, F: FacetSource + ?Sized> Grid<'a, 'b, F> {
 
     /// Where a side of a cell is crossed, from 0 at `from`, its upper or left end, to 1: where the map saw the surface change, or where the
     /// receiver's plane passes from behind one to before the other, or in the middle.
-    fn crossing(&self, cell: IVec2, from: usize, to: usize) -> f64 {
+    pub fn crossing(&self, cell: IVec2, from: usize, to: usize) -> Crossing {
         let at = |corner: usize| cell + IVec2::new(corner as i32 & 1, corner as i32 >> 1);
         if let Some(place) = self.asked.map.link(at(from), to - from == 2) {
-            return place;
+            return Crossing::Link(place);
         }
+        // A plane that the receiver's is behind by no more than it must pass by is one that it lies on.
         let behind = |corner: usize| {
-            let voter = self.voter(at(corner));
-            voter.there + voter.passed
+            let Voter { there, passed, .. } = *self.voter(at(corner));
+            if there > 0.0 { there + passed } else { (there + passed).min(0.0) }
         };
         let (a, b) = (behind(from), behind(to));
-        if (a > 0.0) != (b > 0.0) && a.is_finite() && b.is_finite() { a / (a - b) } else { 0.5 }
+        if (a > 0.0) != (b > 0.0) && a.is_finite() && b.is_finite() {
+            Crossing::Planes(a / (a - b))
+        } else {
+            Crossing::Halfway
+        }
     }
 }
