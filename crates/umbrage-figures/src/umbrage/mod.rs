@@ -27,5 +27,6 @@ pub const FIGURES: &[&Figure] = &[
     &auto::LADDER_OF_PARTS,
     &auto::BYTES,
     &area::AREA,
+    &kinds::COMMON,
     &kinds::KINDS,
 ];
