@@ -29,6 +29,7 @@ pub const FIGURES: &[&Figure] = &[
     &auto::LADDER_OF_PARTS,
     &auto::BYTES,
     &area::AREA,
+    &kinds::COMMON,
     &kinds::KINDS,
     &where_wrong::WHERE,
 ];

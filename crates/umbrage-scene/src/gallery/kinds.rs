@@ -4,94 +4,9 @@
 //! Each thing is an object of its own, the floor the last. All stand on a floor whose top is y = 0 within 24 world units of the middle (but for tiny and far ones), and are seen by a picture of
 //! 512 × 512. Light 0 has 512 × 512 texels, about 1/7 of a world unit each, that hold everything.
 
-use super::views::{camera, lamp, sun, toward};
-use crate::{Light, Material, Mesh, Object, Scene, Shape};
-use glam::{DMat4, DVec3, UVec2, Vec3};
-
-const GREY: Material = Material::matt(Vec3::new(0.62, 0.60, 0.56));
-const BLUE: Material = Material::plastic(Vec3::new(0.12, 0.26, 0.66));
-
-/// Numbers in 0..1 that a scene is made of.
-struct Numbers(u32);
-
-impl Numbers {
-    fn next(&mut self) -> f32 {
-        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (self.0 >> 8) as f32 / 16_777_216.0
-    }
-
-    /// From `low` to `high`.
-    fn from(&mut self, low: f32, high: f32) -> f32 {
-        low + (high - low) * self.next()
-    }
-}
-
-/// One of the kinds.
-struct Kind {
-    name: &'static str,
-    /// Elevation and bearing of the sun, degrees, for each variant; a lamp in that direction where the first is negative.
-    lights: [(f64, f64); 2],
-    numbers: Numbers,
-    variant: u32,
-    things: Vec<Mesh>,
-}
-
-impl Kind {
-    fn new(names: [&'static str; 2], variant: u32, lights: [(f64, f64); 2]) -> Self {
-        let numbers = Numbers(variant.wrapping_mul(77_777).wrapping_add(names[0].len() as u32 * 131));
-        let name = names[variant.min(1) as usize];
-        Self { name, lights, numbers, variant: variant.min(1), things: Vec::new() }
-    }
-
-    /// One of two values, by variant.
-    fn either<T>(&self, first: T, second: T) -> T {
-        if self.variant == 0 { first } else { second }
-    }
-
-    fn cuboid(&mut self, low: Vec3, high: Vec3) {
-        self.things.push(Mesh::cuboid(low, high));
-    }
-
-    /// A box of half-extents `half` about `middle`, turned about an axis through it.
-    fn turned(&mut self, middle: Vec3, half: Vec3, axis: Vec3, degrees: f32) {
-        let turn = DMat4::from_axis_angle(axis.as_dvec3(), f64::from(degrees).to_radians());
-        let place = DMat4::from_translation(middle.as_dvec3()) * turn;
-        self.things.push(Mesh::cuboid(-half, half).transformed(&place));
-    }
-
-    fn rod(&mut self, from: Vec3, to: Vec3, radius: f32) {
-        self.things.push(Mesh::cylinder(from, to, radius, 12));
-    }
-
-    fn light(&self) -> Light {
-        let (elevation, bearing) = self.lights[self.variant as usize];
-        if elevation < 0.0 {
-            let to_lamp = toward(-elevation, bearing);
-            return lamp(to_lamp * 70.0, DVec3::ZERO, 62.0, [20.0, 120.0], 512);
-        }
-        sun(toward(elevation, bearing), DVec3::ZERO, 36.0, 512)
-    }
-
-    fn scene(self, solid: bool) -> Scene {
-        let floor = Mesh::cuboid(Vec3::new(-24.0, -2.0, -24.0), Vec3::new(24.0, 0.0, 24.0));
-        let light = self.light();
-        let object = |(index, mesh): (usize, Mesh)| {
-            let name = format!("thing {index}");
-            if solid { Object::solid(&name, mesh, BLUE) } else { Object::two_sided(&name, Shape::Mesh(mesh), BLUE) }
-        };
-        let mut objects: Vec<Object> = self.things.into_iter().enumerate().map(object).collect();
-        objects.push(Object::solid("floor", floor, GREY));
-        Scene {
-            name: self.name.into(),
-            origin: DVec3::ZERO,
-            objects,
-            lights: vec![light],
-            ambient: Vec3::splat(0.15),
-            background: Vec3::new(0.02, 0.02, 0.03),
-            camera: camera([26.0, 30.0, 44.0], [0.0, 4.0, 0.0], 42.0, [4.0, 200.0], UVec2::splat(512)),
-        }
-    }
-}
+use super::kind::Kind;
+use crate::{Mesh, Scene};
+use glam::{DVec3, Vec3};
 
 /// Pickets, rails and wires: things thinner than a texel, with gaps between them.
 ///
@@ -116,7 +31,7 @@ pub fn fence(variant: u32) -> Scene {
             kind.rod(Vec3::new(-17.0, y, z + 3.0), Vec3::new(17.0, y + 0.7, z + 3.0), 0.05);
         }
     }
-    kind.scene(true)
+    kind.scene()
 }
 
 /// Letters of boards that stand on the floor.
@@ -146,7 +61,7 @@ pub fn letters(variant: u32) -> Scene {
             kind.cuboid(at + low * scale, at + Vec3::new(*right + 0.05, *top, deep) * scale);
         }
     }
-    kind.scene(true)
+    kind.scene()
 }
 
 /// Spiral stairs under a raking light.
@@ -167,7 +82,7 @@ pub fn stairs(variant: u32) -> Scene {
         kind.rod(outer, outer + Vec3::Y * 2.4, 0.06);
     }
     kind.rod(Vec3::ZERO, Vec3::Y * 15.0, 1.1);
-    kind.scene(true)
+    kind.scene()
 }
 
 /// Louvres, and sheets a thousandth of the scene apart.
@@ -186,7 +101,7 @@ pub fn louvres(variant: u32) -> Scene {
         let (y, x) = (3.0 + 0.05 * i as f32, 8.0 + 0.6 * i as f32);
         kind.turned(Vec3::new(x, y, 6.0), Vec3::new(6.0, 0.004, 5.0), Vec3::Z, kind.either(0.0, 12.0));
     }
-    kind.scene(true)
+    kind.scene()
 }
 
 /// City blocks, 10⁶ units from the origin in the second variant.
@@ -208,7 +123,7 @@ pub fn city(variant: u32) -> Scene {
         }
     }
     let far = kind.either(DVec3::ZERO, DVec3::new(1_000_000.0, -200_000.0, 600_000.0));
-    kind.scene(true).moved(far).expect("a place")
+    kind.scene().moved(far).expect("a place")
 }
 
 /// Gears, a centimetre in all where a world unit is a metre.
@@ -221,8 +136,8 @@ pub fn gears(variant: u32) -> Scene {
     let mut kind = Kind::new(["gears", "gears-2"], variant, [(48.0, 65.0), (-60.0, 100.0)]);
     let gear = |kind: &mut Kind, at: Vec3, radius: f32, teeth: u32| {
         let axle = at + Vec3::Y * 1.2;
-        kind.things.push(Mesh::cylinder(at, axle, radius, 48));
-        kind.things.push(Mesh::cylinder(at + Vec3::Y * 1.2, at + Vec3::Y * 3.5, 0.5, 16));
+        kind.solid(Mesh::cylinder(at, axle, radius, 48));
+        kind.solid(Mesh::cylinder(at + Vec3::Y * 1.2, at + Vec3::Y * 3.5, 0.5, 16));
         for tooth in 0..teeth {
             let turn = 360.0 * tooth as f32 / teeth as f32;
             let (sin, cos) = turn.to_radians().sin_cos();
@@ -236,7 +151,7 @@ pub fn gears(variant: u32) -> Scene {
         let teeth = kind.either(20, 31);
         gear(&mut kind, Vec3::new(x, lift, z), radius, teeth);
     }
-    kind.scene(true).scaled(2e-4).expect("a size")
+    kind.scene().scaled(2e-4).expect("a size")
 }
 
 /// Hair and grass: two-sided blades far thinner than a texel.
@@ -260,9 +175,9 @@ pub fn hair(variant: u32) -> Scene {
             let corners = [at(a) - wide, at(a) + wide, at(b) + narrow, at(b) - narrow];
             blade.append(&Mesh::sheet(corners, 1));
         }
-        kind.things.push(blade);
+        kind.sheet(blade);
     }
-    kind.scene(false)
+    kind.scene()
 }
 
 /// Spoked wheels.
@@ -278,7 +193,7 @@ pub fn wheels(variant: u32) -> Scene {
         let hub = Vec3::new(-14.0 + 7.0 * i as f32, radius + 0.3, kind.numbers.from(-10.0, 8.0));
         let turn = kind.numbers.from(-0.8, 0.8);
         let (along, axis) = (Vec3::new(turn.cos(), 0.0, turn.sin()), Vec3::new(-turn.sin(), 0.0, turn.cos()));
-        kind.things.push(Mesh::torus(hub, axis, radius, 0.25, 64));
+        kind.solid(Mesh::torus(hub, axis, radius, 0.25, 64));
         kind.rod(hub - axis * 0.7, hub + axis * 0.7, 0.4);
         let spokes = kind.either(18, 26);
         for spoke in 0..spokes {
@@ -287,7 +202,7 @@ pub fn wheels(variant: u32) -> Scene {
             kind.rod(hub + axis * 0.3 + way * 0.2, hub + way * radius, 0.045);
         }
     }
-    kind.scene(true)
+    kind.scene()
 }
 
 /// A pergola over a room without a ceiling.
@@ -315,5 +230,5 @@ pub fn pergola(variant: u32) -> Scene {
     for corner in [Vec3::new(13.0, 0.0, 12.0), Vec3::new(13.0, 0.0, -12.0), Vec3::new(-12.0, 0.0, 12.5)] {
         kind.rod(corner, corner + Vec3::Y * 9.05, 0.5);
     }
-    kind.scene(true)
+    kind.scene()
 }

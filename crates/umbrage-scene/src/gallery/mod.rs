@@ -7,26 +7,34 @@ mod bicycle;
 mod bicycle_shop;
 mod bowling;
 mod boxes;
+mod contacts;
 mod curved;
 mod desk_lamps;
+mod everyday;
 mod foliage;
 mod four_spheres;
 mod glass_pane;
 mod hall;
+mod kind;
 mod kinds;
 mod lamp;
+mod marched;
 mod moving_ball;
 mod pins;
 mod pipes;
 mod plant;
 mod robot;
+mod rough;
+mod scan;
 mod sculpt;
 mod smile;
 mod sphere_plane;
 mod spot_room;
 mod table;
 mod teapot;
+mod terrain;
 mod thin;
+mod tubes;
 mod views;
 mod walkthrough;
 mod workshop;
@@ -34,7 +42,9 @@ mod workshop;
 pub use bicycle_shop::bicycle_shop;
 pub use bowling::{BOWLING_FRAMES, bowling};
 pub use boxes::{contact_box, overlapping_boxes, single_occluder, two_heights};
+pub use contacts::contacts;
 pub use desk_lamps::desk_lamps;
+pub use everyday::{leaves, solids, spheres};
 pub use four_spheres::{four_spheres, four_spheres_lit_from};
 pub use glass_pane::glass_pane;
 pub use kinds::{city, fence, gears, hair, letters, louvres, pergola, stairs, wheels};
@@ -42,12 +52,15 @@ pub use moving_ball::moving_ball;
 pub use pipes::{pipe_segments, pipes};
 pub use plant::{BLADES, plant};
 pub use robot::robot;
+pub use scan::scan;
 pub use smile::smile;
 pub use sphere_plane::{SLAB_THICKNESS, box_plane, sphere_plane, three_lights};
 pub use spot_room::spot_room;
 pub use table::{table, table_close_up};
 pub use teapot::teapot;
+pub use terrain::terrain;
 pub use thin::{THIN, grazing, occluder_sphere, sheets, thin_slab};
+pub use tubes::tubes;
 pub use walkthrough::walkthrough;
 
 use crate::{Scene, Shape};
@@ -102,6 +115,20 @@ pub const ALL: &[(&str, Make)] = &[
     ("wheels-2", || wheels(1)),
     ("pergola", || pergola(0)),
     ("pergola-2", || pergola(1)),
+    ("solids", || solids(0)),
+    ("solids-2", || solids(1)),
+    ("spheres", || spheres(0)),
+    ("spheres-2", || spheres(1)),
+    ("terrain", || terrain(0)),
+    ("terrain-2", || terrain(1)),
+    ("leaves", || leaves(0)),
+    ("leaves-2", || leaves(1)),
+    ("tubes", || tubes(0)),
+    ("tubes-2", || tubes(1)),
+    ("contacts", || contacts(0)),
+    ("contacts-2", || contacts(1)),
+    ("scan", || scan(0)),
+    ("scan-2", || scan(1)),
 ];
 
 /// How many bicubic patches a scene has.
