@@ -18,9 +18,10 @@ impl Values {
         if self.rule == Rule::Facets {
             // Over an exposure, the first moment's: what moves is for a mean of maps.
             let casters = moments.next().into_iter().flatten().map(|caster| caster.triangle);
-            let baked = match self.refinement.fine {
+            let refinement = self.refinement(view.size().max_element());
+            let baked = match refinement.fine {
                 1 => bake_facets(view, casters, &First, Cull::None),
-                _ => bake_refined(view, casters, &self.refinement),
+                _ => bake_refined(view, casters, &refinement),
             };
             return (baked.map.into(), baked.stats);
         }

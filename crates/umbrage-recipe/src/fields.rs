@@ -121,9 +121,9 @@ pub const FIELDS: &[Field] = &[
     words!(
         "fine",
         AUTO,
-        [("1", 1), ("2", 2), ("4", 4), ("8", 8)],
-        |values| values.refinement.fine,
-        "samples along the side of a texel that is refined; 1 refines none",
+        [("1", Some(1)), ("2", Some(2)), ("4", Some(4)), ("8", Some(8))],
+        |values| values.fine,
+        "samples along the side of a texel that is refined; 1 refines none; otherwise 8 in maps of at most 128 texels a side, 4 in larger ones",
         ""
     ),
     words!(
@@ -137,9 +137,9 @@ pub const FIELDS: &[Field] = &[
     words!(
         "slots",
         AUTO,
-        [("2", 2), ("4", 4), ("8", 8), ("16", 16), ("32", 32)],
-        |values| values.refinement.slots,
-        "parts of a link between two samples, of which one is remembered as where the surface changes; at most 64/fine",
+        [("2", Some(2)), ("4", Some(4)), ("8", Some(8)), ("16", Some(16)), ("32", Some(32))],
+        |values| values.slots,
+        "parts of a link between two samples, of which one is remembered as where the surface changes; at most 64/`fine`, and otherwise 16 or that",
         ""
     ),
     own!(

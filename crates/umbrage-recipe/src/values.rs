@@ -55,6 +55,9 @@ pub enum DepthName {
     Cone,
 }
 
+/// Maps of at most so many texels along their larger side are refined more finely by themselves.
+const SMALL: u32 = 128;
+
 /// Where a light's map is laid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Window {
@@ -100,7 +103,9 @@ pub struct Values {
     pub rescue: bool,
     pub lookup: Lookup,
     pub dither: Dither,
-    pub refinement: Refinement,
+    /// Samples along a refined texel's side and slots of a link, where they are given.
+    pub fine: Option<u32>,
+    pub slots: Option<u32>,
     pub dual: DualPlane,
     /// Points of a light with a size, where they are given.
     pub maps: Option<u32>,
@@ -183,7 +188,8 @@ impl Values {
             rescue: soft.rescue,
             lookup: williams.lookup,
             dither: williams.dither,
-            refinement: Refinement::default(),
+            fine: None,
+            slots: None,
             dual: DualPlane::default(),
             maps: None,
             window: Window::Given,
@@ -202,6 +208,15 @@ impl Values {
             Softness::Light { radius, nearest } => Self { light: Some(radius), nearest: Some(nearest), ..self },
         };
         Self { search, blur, falloff, shape: radius_gamma, opacity, rescue, ..parts }
+    }
+
+    /// How finely maps of facets are kept whose larger side has so many texels: small ones have room for more samples, so that there are about
+    /// as many across all of them.
+    pub fn refinement(&self, texels: u32) -> Refinement {
+        let small = texels <= SMALL && self.slots.is_none_or(|slots| slots <= 8);
+        let fine = self.fine.unwrap_or(if small { 8 } else { 4 });
+        let slots = self.slots.unwrap_or((64 / fine).min(16));
+        Refinement::default().with_fine(fine).with_slots(slots)
     }
 
     /// The default's values for casters that let light pass.
@@ -251,12 +266,13 @@ impl Values {
     }
 
     fn check_auto(&self) -> Result<(), RecipeError> {
-        let Refinement { fine, slots, .. } = self.refinement;
-        if fine * slots > 64 {
-            let most = format!("at most {} with fine={fine}", 64 / fine);
-            return Err(RecipeError::value("slots", &slots.to_string(), most));
+        match (self.fine, self.slots) {
+            (Some(fine), Some(slots)) if fine * slots > 64 => {
+                let most = format!("at most {} with fine={fine}", 64 / fine);
+                Err(RecipeError::value("slots", &slots.to_string(), most))
+            }
+            _ => Ok(()),
         }
-        Ok(())
     }
 
     fn check_closer(&self) -> Result<(), RecipeError> {

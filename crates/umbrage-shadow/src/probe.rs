@@ -7,8 +7,6 @@ use umbrage_plane::Place;
 pub struct PlaceJudged {
     /// Where it is, texels of the map.
     pub at: DVec2,
-    /// How much of the region it stands for, beside the region's other places.
-    pub weight: f32,
     /// Whether the view's rules call it dark, where they settle it; votes do not count then.
     pub ruled: Option<bool>,
     /// What the samples around it say: upper left, upper right, lower left, lower right.
@@ -78,7 +76,7 @@ pub trait Probe {
     /// A region that was compared on its tangent plane (WM94-15).
     #[inline(always)]
     fn virtual_sampled(&mut self) {}
-    /// Whether [`Probe::judged`] is to be told of every place, which takes longer than the answer itself.
+    /// Whether [`Probe::judged`] is to be told of every place that is asked about, which takes longer than the answer itself.
     #[inline(always)]
     fn explains(&self) -> bool {
         false

@@ -1,21 +1,22 @@
 //! Pass 1 of maps that keep facets.
 
+mod budget;
+mod merged;
 mod refined;
 mod refinement;
 
 pub use refinement::Refinement;
 
 use crate::pass1::Pass;
+use budget::Level;
 use glam::{IVec2, UVec2};
+use merged::merged;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
 use umbrage_depth::{FacetCells, FacetDepths, FacetMap, FacetRule, FacetTile, First, NO_FACET, Stored};
 use umbrage_plane::{Facet, Facing, Sampling, TexelRect, View};
 use umbrage_raster::{BIN, Bins, Cull, Stats, Triangle, each_fragment};
-
-/// Most bytes of a refined map for each of its texels. Beyond it the tiles that take most keep no samples.
-const MOST_BYTES: usize = 10;
 
 /// Cells of a tile.
 const CELLS: usize = (BIN * BIN) as usize;
@@ -68,7 +69,8 @@ pub fn bake_facets<R: FacetRule>(
 /// them: what [`DualPlane`] asks. Texels are sampled at their centres, whatever the view's own sampling.
 ///
 /// A texel is refined when one of its samples, or the first sample beyond its right or lower side, lies off its own plane by more than
-/// the tolerance, as far as ten bytes for each of the map's texels go round. A link is kept between neighbouring samples of refined texels whose facets' planes do not meet there.
+/// the tolerance, as far as ten bytes for each of the map's texels go round, or as 640 KB do: beyond them, the tiles that take most let samples share planes that are nearly their own, then refine
+/// only edges that are worth more texels, and at last none. A link is kept between neighbouring samples of refined texels whose facets' planes do not meet there.
 ///
 /// [`DualPlane`]: https://docs.rs/umbrage-shadow
 ///
@@ -85,40 +87,23 @@ pub fn bake_refined(
     let view = &view.with_sampling(Sampling::Centre);
     let bins = Bins::for_spans(view, TexelRect::of_size(view.size()), Cull::None, triangles);
     let depths = FacetDepths::of(view);
-    let kept = |tile: UVec2, blocks: bool| {
-        let found = refined::tile(view, &bins, tile, refinement)?;
+    let kept = |tile: UVec2, level: Level| {
+        let refinement = refinement.with_tolerance(refinement.tolerance * level.tolerance);
+        let found = refined::tile(view, &bins, tile, &refinement)?;
         let cells = found.cells();
-        let cells = FacetCells { blocks: if blocks { cells.blocks } else { &[] }, ..cells };
-        pack(view, &depths, tile, fine, &cells)
+        let cells = FacetCells { blocks: if level.refined { cells.blocks } else { &[] }, ..cells };
+        if !level.merged {
+            return pack(view, &depths, tile, fine, &cells);
+        }
+        let (texels, blocks) = merged(view, &cells, (tile * BIN).as_ivec2(), fine);
+        pack(view, &depths, tile, fine, &FacetCells { texels: &texels, blocks: &blocks, ..cells })
     };
-    let mut tiles = by_tile(view, |tile| kept(tile, true));
-    let plain = over_budget(view, &tiles);
     let grid = view.size().map(|side| side.div_ceil(BIN));
-    let again = |&index: &usize| kept(UVec2::new(index as u32 % grid.x, index as u32 / grid.x), false);
-    let replaced: Vec<_> = plain.par_iter().map(again).collect();
-    for (index, tile) in plain.into_iter().zip(replaced) {
-        tiles[index] = tile;
-    }
+    let again = |index: usize, level| kept(UVec2::new(index as u32 % grid.x, index as u32 / grid.x), level);
+    let tiles = by_tile(view, |tile| kept(tile, Level::ALL));
+    let tiles = budget::within(view.size().element_product() as usize, tiles, again);
     let map = FacetMap::from_tiles(*view, umbrage_depth::DepthRule::stored(&First), fine, slots, tiles);
     BakedFacets { map: Arc::new(map), stats: bins.stats() }
-}
-
-/// The tiles that keep no samples, so that the map stays within its bytes: those that take most, as few as will do.
-fn over_budget(view: &View, tiles: &[Option<FacetTile>]) -> Vec<usize> {
-    let bytes = |index: &usize| tiles[*index].as_ref().map_or(0, FacetTile::bytes);
-    let mut refined: Vec<usize> = (0..tiles.len()).filter(|index| tiles[*index].is_some()).collect();
-    refined.retain(|index| tiles[*index].as_ref().is_some_and(|tile| tile.refined() > 0));
-    refined.sort_by_key(|index| std::cmp::Reverse(bytes(index)));
-    let all: usize = (0..tiles.len()).map(|index| bytes(&index)).sum();
-    let mut over = all.saturating_sub(view.size().element_product() as usize * MOST_BYTES);
-    // What a tile takes without samples: a float and two slopes each texel at most.
-    let saved = |index: &usize| bytes(index).saturating_sub(CELLS * 8);
-    let drop = |index: &usize| {
-        let drops = over > 0 && saved(index) > 0;
-        over = over.saturating_sub(if drops { saved(index) } else { 0 });
-        drops
-    };
-    refined.into_iter().filter(drop).collect()
 }
 
 /// All tiles of a map, in parallel.

@@ -59,6 +59,9 @@ impl Voter {
 /// Samples along each side of the region that are kept at hand; larger regions ask the map for each place.
 const AT_HAND: i32 = 9;
 
+/// How often the cell between two places of different answers is halved to find the edge.
+const HALVINGS: u32 = 3;
+
 /// Regions of more texels along a side are not asked whether all of their samples agree.
 const MOST_AGREED: f64 = 16.0;
 
@@ -70,7 +73,8 @@ pub(super) struct Grid<'a, 'b, F: ?Sized> {
     asked: &'b Asked<'a, F>,
     /// The finer grid's column and row of the first, and columns.
     rect: TexelRect,
-    voters: [Voter; (AT_HAND * AT_HAND) as usize],
+    /// What each says, and what it says of the whole region where that is one thing.
+    voters: Vec<(Voter, Option<bool>)>,
 }
 
 impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
@@ -120,7 +124,7 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
         let corner = |at: DVec2| (at * fine - 0.5).floor();
         let (low, high) = (corner(centre - reach), corner(centre + reach) + 2.0);
         if !(low.abs().max_element() < FAR && high.abs().max_element() < FAR) {
-            return (self.places(false, |_| false), 0);
+            return (self.share(false, |_| false), 0);
         }
         let rect = TexelRect::new(low.as_ivec2(), high.as_ivec2());
         let inside = self.view.holds(centre.as_vec2(), reach.as_vec2());
@@ -140,19 +144,26 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
     #[inline(always)]
     fn agreed(&self, rect: TexelRect) -> (Option<bool>, u32) {
         let (mut lit, mut dark, mut looked) = (true, true, 0);
-        let (centre, axes) = self.part;
         self.map.each_sample(rect, &mut |sample| {
             looked += 1;
             let voter = self.voter(sample);
-            let middle = voter.behind.at(centre);
-            let along = |axis: DVec2| (voter.behind.dx * axis.x + voter.behind.dy * axis.y).abs();
-            // A little more than the region, so that no rounding decides.
-            let spread = (along(axes[0]) + along(axes[1])) * (1.0 + 1e-9);
-            dark &= voter.there > 0.0 && middle - spread > 0.0;
-            lit &= voter.there <= 0.0 || middle + spread <= 0.0;
+            let (nearest, farthest) = self.behind(&voter);
+            dark &= voter.there > 0.0 && nearest > 0.0;
+            lit &= voter.there <= 0.0 || farthest <= 0.0;
             dark || lit
         });
-        (if dark == lit { None } else { Some(dark) }, looked)
+        (settled(dark, lit), looked)
+    }
+
+    /// How far the region lies behind a sample's plane, less what it must pass by: the least and the most.
+    #[inline(always)]
+    fn behind(&self, voter: &Voter) -> (f64, f64) {
+        let (centre, axes) = self.part;
+        let middle = voter.behind.at(centre);
+        let along = |axis: DVec2| (voter.behind.dx * axis.x + voter.behind.dy * axis.y).abs();
+        // A little more than the region, so that no rounding decides.
+        let spread = (along(axes[0]) + along(axes[1])) * (1.0 + 1e-9);
+        (middle - spread, middle + spread)
     }
 
     #[inline(always)]
@@ -170,71 +181,96 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
         Voter { behind, there: behind.at(sample.at), passed }
     }
 
-    /// The places of the region that are its surface, each with its weight.
-    #[inline(always)]
-    pub fn each_place(&self, mut each: impl FnMut(DVec2, f32)) {
-        let across = self.across;
-        let offset = |i: u32| f64::from(2 * i + 1) / f64::from(across) - 1.0;
-        let mut any = false;
-        for j in 0..if across == 1 { 0 } else { across } {
-            let row = self.middle + self.axes[1] * offset(j);
-            for i in 0..across {
-                let share = self.cells.share(i, j, across);
-                if share > 0.0 {
-                    any = true;
-                    each(row + self.axes[0] * offset(i), share);
-                }
-            }
-        }
-        if !any {
-            each(self.texel, 1.0);
-        }
-    }
-
     /// The answer of a place that the view's rules settle.
     #[inline(always)]
     pub fn ruled(&self, at: DVec2) -> Option<f32> {
         answer(self.view.rules().verdict(self.view.locate(at.as_vec2())))
     }
 
-    /// The mean over the places of the region; `dark` is asked about those that the view's rules do not settle.
+    /// The share of the region's surface that is dark, by lines across it: on each, what lies between two places that answer alike is as they are, and between
+    /// two that do not the edge is looked for. `dark` is asked about places that the view's rules do not settle.
     #[inline(always)]
-    fn places(&self, inside: bool, mut dark: impl FnMut(DVec2) -> bool) -> f32 {
-        let (mut sum, mut all) = (0.0, 0.0);
-        self.each_place(|at, share| {
+    pub fn share(&self, inside: bool, mut dark: impl FnMut(DVec2) -> bool) -> f32 {
+        let mut answer = |at: DVec2| {
             let ruled = if inside { None } else { self.ruled(at) };
-            all += share;
-            sum += share * ruled.unwrap_or_else(|| f32::from(u8::from(dark(at))));
-        });
-        sum / all
+            ruled.map_or_else(|| dark(at), |dark| dark > 0.0)
+        };
+        if self.across == 1 {
+            return f32::from(u8::from(answer(self.texel)));
+        }
+        // Lines go across the edge rather than along it.
+        let (centre, [x, y]) = self.part;
+        let [a, b, c, d] = [-x - y, x - y, y - x, x + y].map(|by| answer(centre + by));
+        let along_x = !(a == b && c == d && a != c);
+        let [x, y] = self.axes;
+        let (along, beside) = if along_x { (x, y) } else { (y, x) };
+        let step = 1.0 / f64::from(self.across);
+        let (mut sum, mut all) = (0.0, 0.0);
+        for line in 0..self.across {
+            let first = self.middle + beside * (f64::from(2 * line + 1) * step - 1.0) - along;
+            let at = |cells: f64| first + along * (2.0 * step * cells);
+            let mut before = None;
+            for cell in 0..self.across {
+                let (column, row) = if along_x { (cell, line) } else { (line, cell) };
+                let share = self.cells.share(column, row, self.across);
+                if share == 0.0 {
+                    before = None;
+                    continue;
+                }
+                let from = f64::from(cell);
+                let left = before.unwrap_or_else(|| answer(at(from)));
+                let right = answer(at(from + 1.0));
+                let mut changed = if left { 1.0 } else { 0.0 };
+                if left != right {
+                    let (mut low, mut high) = (0.0, 1.0);
+                    for _ in 0..HALVINGS {
+                        let middle = 0.5 * (low + high);
+                        *(if answer(at(from + middle)) == left { &mut low } else { &mut high }) = middle;
+                    }
+                    let edge = 0.5 * (low + high) as f32;
+                    changed = if left { edge } else { 1.0 - edge };
+                }
+                all += share;
+                sum += share * changed;
+                before = Some(right);
+            }
+        }
+        if all > 0.0 { sum / all } else { f32::from(u8::from(answer(self.texel))) }
     }
 
     /// A large region: the map is asked anew for each place.
     #[inline(never)]
     fn one_by_one(&self) -> f32 {
-        self.places(false, |at| {
+        self.share(false, |at| {
             let corner = (at * f64::from(self.map.fine()) - 0.5).floor().as_ivec2();
             Grid::new(self, TexelRect::new(corner, corner + 2)).dark(at)
         })
     }
 }
 
+/// The one of two that holds; `None` where neither or both do.
+#[inline(always)]
+fn settled(dark: bool, lit: bool) -> Option<bool> {
+    (dark != lit).then_some(dark)
+}
+
 impl<'a, 'b, F: FacetSource + ?Sized> Grid<'a, 'b, F> {
     pub fn new(asked: &'b Asked<'a, F>, rect: TexelRect) -> Self {
-        let mut voters = [Voter::NOTHING; (AT_HAND * AT_HAND) as usize];
-        for (at, voter) in rect.texels().zip(&mut voters) {
-            *voter = asked.voter(&asked.map.sample(at));
-        }
-        Self { asked, rect, voters }
+        let voter = |at: IVec2| {
+            let voter = asked.voter(&asked.map.sample(at));
+            let (nearest, farthest) = asked.behind(&voter);
+            (voter, settled(voter.there > 0.0 && nearest > 0.0, voter.there <= 0.0 || farthest <= 0.0))
+        };
+        Self { asked, rect, voters: rect.texels().map(voter).collect() }
     }
 
     #[inline(never)]
     fn fraction(&self, inside: bool) -> f32 {
-        self.asked.places(inside, |at| self.dark(at))
+        self.asked.share(inside, |at| self.dark(at))
     }
 
     #[inline(always)]
-    fn voter(&self, at: IVec2) -> &Voter {
+    fn voter(&self, at: IVec2) -> &(Voter, Option<bool>) {
         let (from, columns) = (at - self.rect.min, self.rect.max.x - self.rect.min.x);
         &self.voters[(from.y * columns + from.x) as usize]
     }
@@ -245,7 +281,10 @@ impl<'a, 'b, F: FacetSource + ?Sized> Grid<'a, 'b, F> {
         let place = at * f64::from(self.asked.map.fine()) - 0.5;
         // Roundings of a place at the region's rim.
         let corner = place.floor().as_ivec2().clamp(self.rect.min, self.rect.max - 2);
-        let vote = |k: i32| self.voter(corner + IVec2::new(k & 1, k >> 1)).dark(at);
+        let vote = |k: i32| {
+            let (voter, settled) = self.voter(corner + IVec2::new(k & 1, k >> 1));
+            settled.unwrap_or_else(|| voter.dark(at))
+        };
         let votes = [vote(0), vote(1), vote(2), vote(3)];
         if votes == [votes[0]; 4] {
             return votes[0];
@@ -300,16 +339,14 @@ impl<'a, 'b, F: FacetSource + ?Sized> Grid<'a, 'b, F> {
         if let Some(place) = self.asked.map.link(at(from), to - from == 2) {
             return Crossing::Link(place);
         }
-        // A plane that the receiver's is behind by no more than it must pass by is one that it lies on.
+        // Whether the receiver is behind a plane or before it is not known where it lies on it.
         let behind = |corner: usize| {
-            let Voter { there, passed, .. } = *self.voter(at(corner));
-            if there > 0.0 { there + passed } else { (there + passed).min(0.0) }
+            let (Voter { there, passed, .. }, _) = *self.voter(at(corner));
+            Some(there + passed).filter(|behind| behind.is_finite() && behind.abs() > passed)
         };
-        let (a, b) = (behind(from), behind(to));
-        if (a > 0.0) != (b > 0.0) && a.is_finite() && b.is_finite() {
-            Crossing::Planes(a / (a - b))
-        } else {
-            Crossing::Halfway
+        match (behind(from), behind(to)) {
+            (Some(a), Some(b)) if (a > 0.0) != (b > 0.0) => Crossing::Planes(a / (a - b)),
+            _ => Crossing::Halfway,
         }
     }
 }

@@ -9,17 +9,20 @@ use umbrage_plane::TexelRect;
 /// The corners of a cell's sides: upper, lower, left, right.
 const SIDES: [(usize, usize); 4] = [(0, 1), (2, 3), (0, 2), (1, 3)];
 
-/// Tells a probe of each place. Every one is looked at by itself, which gives what all together do.
+/// Tells a probe of each place that is asked about. Every one is looked at by itself, which gives what all together do.
 #[inline(never)]
 pub(super) fn explain<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, probe: &mut impl Probe) {
-    asked.each_place(|at, weight| {
+    asked.share(true, |at| {
         if at.abs().max_element() < FAR {
-            probe.judged(&judged(asked, at, weight));
+            let place = judged(asked, at);
+            probe.judged(&place);
+            return place.dark;
         }
+        asked.ruled(at).is_some_and(|dark| dark > 0.0)
     });
 }
 
-fn judged<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, at: DVec2, weight: f32) -> PlaceJudged {
+fn judged<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, at: DVec2) -> PlaceJudged {
     let corner = (at * f64::from(asked.map.fine()) - 0.5).floor().as_ivec2();
     let grid = Grid::new(asked, TexelRect::new(corner, corner + 2));
     let votes = [0, 1, 2, 3].map(|k| {
@@ -29,9 +32,8 @@ fn judged<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, at: DVec2, weight: f32)
     let crossed = |(from, to): (usize, usize)| -> Option<Crossing> {
         (votes[from].dark != votes[to].dark).then(|| grid.crossing(corner, from, to))
     };
-    let ruled = asked.ruled(at);
-    let dark = ruled.map_or_else(|| grid.dark(at), |dark| dark > 0.0);
-    PlaceJudged { at, weight, ruled: ruled.map(|dark| dark > 0.0), votes, crossings: SIDES.map(crossed), dark }
+    let ruled = asked.ruled(at).map(|dark| dark > 0.0);
+    PlaceJudged { at, ruled, votes, crossings: SIDES.map(crossed), dark: ruled.unwrap_or_else(|| grid.dark(at)) }
 }
 
 fn vote<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, sample: &FacetSample, at: DVec2) -> Vote {
