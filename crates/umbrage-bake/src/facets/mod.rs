@@ -1,13 +1,17 @@
 //! Pass 1 of maps that keep facets.
 
+mod links;
+mod nearest;
 mod refined;
 mod refinement;
+mod surface;
 
 pub use refinement::Refinement;
 
 use crate::pass1::Pass;
 use glam::{IVec2, UVec2};
 use rayon::prelude::*;
+use refined::Parts;
 use std::collections::HashMap;
 use std::sync::Arc;
 use umbrage_depth::{FacetCells, FacetDepths, FacetMap, FacetRule, FacetTile, First, NO_FACET, Stored};
@@ -85,16 +89,14 @@ pub fn bake_refined(
     let view = &view.with_sampling(Sampling::Centre);
     let bins = Bins::for_spans(view, TexelRect::of_size(view.size()), Cull::None, triangles);
     let depths = FacetDepths::of(view);
-    let kept = |tile: UVec2, blocks: bool| {
-        let found = refined::tile(view, &bins, tile, refinement)?;
-        let cells = found.cells();
-        let cells = FacetCells { blocks: if blocks { cells.blocks } else { &[] }, ..cells };
-        pack(view, &depths, tile, fine, &cells)
+    let kept = |tile: UVec2, parts: Parts| {
+        let found = refined::tile(view, &bins, tile, refinement, parts)?;
+        pack(view, &depths, tile, fine, &found.cells())
     };
-    let mut tiles = by_tile(view, |tile| kept(tile, true));
+    let mut tiles = by_tile(view, |tile| kept(tile, Parts::All));
     let plain = over_budget(view, &tiles);
     let grid = view.size().map(|side| side.div_ceil(BIN));
-    let again = |&index: &usize| kept(UVec2::new(index as u32 % grid.x, index as u32 / grid.x), false);
+    let again = |&index: &usize| kept(UVec2::new(index as u32 % grid.x, index as u32 / grid.x), Parts::Texels);
     let replaced: Vec<_> = plain.par_iter().map(again).collect();
     for (index, tile) in plain.into_iter().zip(replaced) {
         tiles[index] = tile;
