@@ -42,13 +42,15 @@ mod bins;
 mod clip;
 mod coverage;
 mod fragments;
+mod gathered;
 mod setup;
 mod spans;
 
 pub use bins::Bins;
 pub use coverage::Coverage;
 pub use fragments::each_fragment;
-pub use spans::{Lines, Seen};
+pub use gathered::{Gathered, Seen};
+pub use spans::Lines;
 
 use glam::DVec3;
 

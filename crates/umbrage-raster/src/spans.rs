@@ -1,8 +1,9 @@
 //! What facets cover along the lines of a finer grid: exact, from the same snapped corners as the texels' samples.
 
-use crate::setup::{Piece, SUBTEXELS};
-use crate::{BIN, Bins};
-use glam::{IVec2, UVec2};
+use crate::Bins;
+use crate::gathered::Gathered;
+use crate::setup::SUBTEXELS;
+use glam::IVec2;
 use std::ops::Range;
 use umbrage_plane::{Facet, TexelRect};
 
@@ -26,22 +27,21 @@ impl Lines {
     }
 }
 
-/// What is nearest all over a region.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Seen {
-    /// Nothing reaches it.
-    Nothing,
-    /// One facet covers it, and lies before whatever else reaches it.
-    One(Facet),
-    /// It may be several, or one with gaps.
-    Several,
+/// Lines at first + k·2^`shift`, k from 0 to `count`.
+#[derive(Clone, Copy)]
+struct Grid {
+    first: i32,
+    shift: u32,
+    count: i32,
 }
 
-/// Regions that more pieces may reach are not asked what is nearest.
-const MOST_ASKED: usize = 32;
-
-/// Three sides, as nearly every piece has, are crossed by a line twice or not at all.
-const TRIANGLE: usize = 3;
+impl Grid {
+    /// How many of the lines are before a coordinate. Shifts round down, below 0 too.
+    #[inline(always)]
+    fn before(self, at: i32) -> i32 {
+        ((at - self.first + (1 << self.shift) - 1) >> self.shift).clamp(0, self.count)
+    }
+}
 
 /// An edge from its end that is met first to the other, with the lines that cross it.
 struct Crossed {
@@ -57,39 +57,49 @@ struct Crossed {
 }
 
 impl Crossed {
-    /// The lines at first + k·step, k from 0 to count, that cross the edge from `a` to `b`, both as (along, across).
-    fn of(a: IVec2, b: IVec2, (first, step, count): (i32, i32, i32)) -> Option<Self> {
+    /// By no line.
+    const NOWHERE: Self = Self { first: 0, count: 0, at: 0, step: (0, 0), remainder: 0, height: 1 };
+
+    /// The lines of a grid that cross the edge from `a` to `b`, both as (along, across).
+    #[inline(always)]
+    fn of(a: IVec2, b: IVec2, grid: Grid) -> Self {
         let (top, bottom) = if a.y <= b.y { (a, b) } else { (b, a) };
         // Lines y with top ≤ y < bottom.
-        let not_before = |y: i32| (y - first + step - 1).div_euclid(step);
-        let (from, to) = (not_before(top.y).max(0), not_before(bottom.y).min(count));
+        let (from, to) = (grid.before(top.y), grid.before(bottom.y));
         if from >= to {
-            return None;
+            return Self::NOWHERE;
         }
         let (dx, dy) = (i64::from(bottom.x - top.x), i64::from(bottom.y - top.y));
         // The crossing is before x while dy·(x − top.x) ≥ dx·(y − top.y): from ⌈dx·(y − top.y)/dy⌉ on.
-        let upward = dx * i64::from(first + from * step - top.y) + dy - 1;
-        let each = dx * i64::from(step);
-        Some(Self {
+        let upward = dx * i64::from(grid.first + (from << grid.shift) - top.y) + dy - 1;
+        let quotient = upward.div_euclid(dy);
+        // One line needs no way to the next.
+        let step = if to - from > 1 {
+            let each = dx << grid.shift;
+            let quotient = each.div_euclid(dy);
+            (quotient, each - quotient * dy)
+        } else {
+            (0, 0)
+        };
+        Self {
             first: from,
             count: to - from,
-            at: i64::from(top.x) + upward.div_euclid(dy),
-            remainder: upward.rem_euclid(dy),
-            step: (each.div_euclid(dy), each.rem_euclid(dy)),
+            at: i64::from(top.x) + quotient,
+            remainder: upward - quotient * dy,
+            step,
             height: dy,
-        })
+        }
     }
 
     /// Calls `each` with every line, counted from 0, and the crossing there.
+    #[inline(always)]
     fn each(mut self, mut each: impl FnMut(i32, i32)) {
         for line in self.first..self.first + self.count {
             each(line, self.at as i32);
-            self.at += self.step.0;
-            self.remainder += self.step.1;
-            if self.remainder >= self.height {
-                self.at += 1;
-                self.remainder -= self.height;
-            }
+            // Without a branch, which nobody could predict.
+            let carry = i64::from(self.remainder + self.step.1 >= self.height);
+            self.at += self.step.0 + carry;
+            self.remainder += self.step.1 - carry * self.height;
         }
     }
 }
@@ -119,118 +129,77 @@ impl Bins {
     /// assert_eq!(spans[0], (13 * 256 + 128, 16 * 256..16 * 256 + 128));
     /// ```
     pub fn spans(&self, region: TexelRect, lines: Lines, step: i32, mut sink: impl FnMut(&Facet, i32, Range<i32>)) {
+        let sink = |_: usize, facet: &Facet, line: i32, along: Range<i32>| sink(facet, line, along);
+        self.gathered(region).spans(region, lines, step, |_| true, sink);
+    }
+}
+
+impl Gathered<'_> {
+    /// [`Bins::spans`] of a part of what was gathered, for those facets whose bounding box in 1/256 texel (the last row and column of which
+    /// may be empty) is `wanted`. The first that `sink` is given is the facet's number, 0-based among all that were gathered.
+    #[inline(always)]
+    pub fn spans(
+        &self,
+        region: TexelRect,
+        lines: Lines,
+        step: i32,
+        wanted: impl Fn(TexelRect) -> bool,
+        mut sink: impl FnMut(usize, &Facet, i32, Range<i32>),
+    ) {
         debug_assert!((2..=SUBTEXELS).contains(&step) && step & (step - 1) == 0, "a step of {step}");
-        let window = self.window();
+        let window = self.bins.window();
         let region = region.intersect(TexelRect::new(window.min * SUBTEXELS, window.max * SUBTEXELS));
         if region.is_empty() {
             return;
         }
         let (low, high) = (lines.turned(region.min), lines.turned(region.max));
-        let first = low.y + (step / 2 - low.y).rem_euclid(step);
-        let count = (high.y - first + step - 1).div_euclid(step);
+        let (first, shift) = (low.y + (step / 2 - low.y).rem_euclid(step), step.ilog2());
+        let count = (high.y - first + step - 1) >> shift;
         if count <= 0 {
             return;
         }
-        let grid = (first, step, count);
+        let grid = Grid { first, shift, count };
         let mut crossings: Vec<Vec<i32>> = Vec::new();
         let mut ends = vec![[0; 2]; count as usize];
-        self.each_piece(region, |piece, corners| {
-            let turned = |corner: &IVec2| lines.turned(*corner);
-            let edges = corners.iter().zip(corners.iter().cycle().skip(1));
-            let edges = edges.filter_map(|(a, b)| Crossed::of(turned(a), turned(b), grid));
+        for (number, outline) in self.outlines.iter().enumerate() {
+            let (from, to) = (grid.before(lines.turned(outline.low).y), grid.before(lines.turned(outline.high).y));
+            if from >= to || !outline.touches(region) || !wanted(outline.bounds()) {
+                continue;
+            }
+            let (piece, corners) = self.bins.piece(outline.piece);
             let facet = piece.facet();
-            let mut report = |line: i32, from: i32, to: i32| {
-                let (from, to) = (from.max(low.x), to.min(high.x));
-                if from < to {
-                    sink(&facet, first + line * step, from..to);
-                }
-            };
-            if corners.len() == TRIANGLE {
-                let (mut from, mut to) = (count, 0);
-                for edge in edges {
-                    (from, to) = (from.min(edge.first), to.max(edge.first + edge.count));
-                    edge.each(|line, at| {
+            // Three sides, as nearly every piece has, are crossed by a line twice or not at all.
+            let triangle = corners.len() == 3;
+            if let &[a, b, c] = corners {
+                let (a, b, c) = (lines.turned(a), lines.turned(b), lines.turned(c));
+                for (a, b) in [(a, b), (b, c), (c, a)] {
+                    Crossed::of(a, b, grid).each(|line, at| {
                         let end = &mut ends[line as usize];
                         *end = [at, end[0]];
                     });
                 }
-                for line in from..to {
-                    let [a, b] = ends[line as usize];
-                    report(line, a.min(b), a.max(b));
+            } else {
+                crossings.iter_mut().for_each(Vec::clear);
+                crossings.resize_with(count as usize, Vec::new);
+                for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+                    Crossed::of(lines.turned(*a), lines.turned(*b), grid)
+                        .each(|line, at| crossings[line as usize].push(at));
                 }
-                return;
+                for crossed in &mut crossings {
+                    crossed.sort_unstable();
+                }
             }
-            crossings.clear();
-            crossings.resize_with(count as usize, Vec::new);
-            for edge in edges {
-                edge.each(|line, at| crossings[line as usize].push(at));
-            }
-            for (line, crossed) in (0..).zip(&mut crossings) {
-                crossed.sort_unstable();
+            for line in from..to {
+                let [a, b] = ends[line as usize];
+                let two = [a.min(b), a.max(b)];
+                let crossed = if triangle { &two } else { crossings[line as usize].as_slice() };
                 for pair in crossed.chunks_exact(2) {
-                    report(line, pair[0], pair[1]);
+                    let (from, to) = (pair[0].max(low.x), pair[1].min(high.x));
+                    if from < to {
+                        sink(number, &facet, first + (line << shift), from..to);
+                    }
                 }
             }
-        });
-    }
-
-    /// What is nearest all over a region (in 1/256 texel), where its corners decide that: then no sample in it needs to be asked.
-    pub fn seen(&self, region: TexelRect) -> Seen {
-        let mut pieces: Vec<(Facet, bool)> = Vec::new();
-        let corners =
-            [region.min, IVec2::new(region.max.x, region.min.y), region.max, IVec2::new(region.min.x, region.max.y)];
-        self.each_piece(region, |piece, outline| {
-            if pieces.len() <= MOST_ASKED {
-                pieces.push((piece.facet(), corners.iter().all(|corner| holds(outline, *corner))));
-            }
-        });
-        if pieces.is_empty() {
-            return Seen::Nothing;
-        }
-        let keys = |facet: &Facet| corners.map(|corner| facet.plane.at(corner.as_dvec2() / f64::from(SUBTEXELS)));
-        let before = |nearer: &Facet, other: &Facet| keys(nearer).iter().zip(keys(other)).all(|(a, b)| *a < b);
-        let covering = pieces.iter().filter(|(_, covers)| *covers).map(|(facet, _)| facet);
-        let nearest = covering.min_by(|a, b| keys(a)[0].total_cmp(&keys(b)[0]));
-        match nearest {
-            Some(one) if pieces.len() <= MOST_ASKED => {
-                let first = pieces.iter().all(|(other, _)| other.triangle == one.triangle || before(one, other));
-                if first { Seen::One(*one) } else { Seen::Several }
-            }
-            _ => Seen::Several,
         }
     }
-
-    /// Calls `each` with every piece that may reach a region of 1/256 texels, once, in order, with its corners.
-    fn each_piece(&self, region: TexelRect, mut each: impl FnMut(&Piece, &[IVec2])) {
-        let side = BIN as i32 * SUBTEXELS;
-        let (from, to) = ((region.min / side).as_uvec2(), ((region.max - 1) / side).as_uvec2());
-        let mut lists: Vec<&[u32]> = Vec::new();
-        for y in from.y..=to.y {
-            for x in from.x..=to.x {
-                lists.push(self.list(UVec2::new(x, y)));
-            }
-        }
-        loop {
-            let Some(next) = lists.iter().filter_map(|list| list.first()).min().copied() else { return };
-            for list in &mut lists {
-                if list.first() == Some(&next) {
-                    *list = &list[1..];
-                }
-            }
-            let (piece, corners) = self.piece(next);
-            let low = corners.iter().fold(IVec2::MAX, |low, corner| low.min(*corner));
-            let high = corners.iter().fold(IVec2::MIN, |high, corner| high.max(*corner));
-            if low.cmplt(region.max).all() && high.cmpge(region.min).all() {
-                each(piece, corners);
-            }
-        }
-    }
-}
-
-/// Whether a triangle surely has a point strictly inside; never for an outline of more corners.
-fn holds(outline: &[IVec2], at: IVec2) -> bool {
-    let side = |a: IVec2, b: IVec2| (b - a).as_i64vec2().perp_dot((at - a).as_i64vec2()).signum();
-    let [a, b, c] = *outline else { return false };
-    let sides = [side(a, b), side(b, c), side(c, a)];
-    sides == [1; 3] || sides == [-1; 3]
 }

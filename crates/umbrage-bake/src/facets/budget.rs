@@ -1,5 +1,6 @@
 //! What gives way where a refined map would take too many bytes.
 
+use super::refined::Parts;
 use rayon::prelude::*;
 use umbrage_depth::FacetTile;
 
@@ -16,21 +17,21 @@ pub(super) struct Level {
     pub tolerance: f64,
     /// Samples may share a plane that is nearly their own.
     pub merged: bool,
-    /// Texels are refined at all.
-    pub refined: bool,
+    /// Whether texels are refined at all.
+    pub parts: Parts,
 }
 
 impl Level {
     /// Everything as the refinement says.
-    pub const ALL: Self = Self { tolerance: 1.0, merged: false, refined: true };
+    pub const ALL: Self = Self { tolerance: 1.0, merged: false, parts: Parts::All };
 
     /// What is tried in turn: planes that are shared; only edges that are worth more and more texels; no samples.
     const LESS: [Self; 5] = [
-        Self { tolerance: 1.0, merged: true, refined: true },
-        Self { tolerance: 2.0, merged: true, refined: true },
-        Self { tolerance: 4.0, merged: true, refined: true },
-        Self { tolerance: 16.0, merged: true, refined: true },
-        Self { tolerance: 1.0, merged: false, refined: false },
+        Self { tolerance: 1.0, merged: true, parts: Parts::All },
+        Self { tolerance: 2.0, merged: true, parts: Parts::All },
+        Self { tolerance: 4.0, merged: true, parts: Parts::All },
+        Self { tolerance: 16.0, merged: true, parts: Parts::All },
+        Self { tolerance: 1.0, merged: false, parts: Parts::Texels },
     ];
 }
 

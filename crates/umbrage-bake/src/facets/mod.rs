@@ -1,9 +1,12 @@
 //! Pass 1 of maps that keep facets.
 
 mod budget;
+mod links;
 mod merged;
+mod nearest;
 mod refined;
 mod refinement;
+mod surface;
 
 pub use refinement::Refinement;
 
@@ -89,9 +92,8 @@ pub fn bake_refined(
     let depths = FacetDepths::of(view);
     let kept = |tile: UVec2, level: Level| {
         let refinement = refinement.with_tolerance(refinement.tolerance * level.tolerance);
-        let found = refined::tile(view, &bins, tile, &refinement)?;
+        let found = refined::tile(view, &bins, tile, &refinement, level.parts)?;
         let cells = found.cells();
-        let cells = FacetCells { blocks: if level.refined { cells.blocks } else { &[] }, ..cells };
         if !level.merged {
             return pack(view, &depths, tile, fine, &cells);
         }

@@ -3,7 +3,7 @@
 use glam::{DVec3, IVec2, UVec2};
 use std::collections::BTreeMap;
 use umbrage_plane::{TexelRect, View};
-use umbrage_raster::{BIN, Bins, Cull, Lines, Triangle};
+use umbrage_raster::{BIN, Bins, Cull, Lines, Seen, Triangle};
 
 /// Random triangles in front of a small perspective view: ordinary ones, slivers, and some that are cut by the near limit.
 fn soup(seed: u32) -> (View, Vec<Triangle>) {
@@ -135,4 +135,47 @@ fn a_region_is_a_part_of_the_whole() {
             assert_eq!(part, inside);
         }
     }
+}
+
+/// What is gathered once for a region answers for every part of it as the bins do; who is not wanted is left out, and no one else.
+#[test]
+fn gathered_facets_answer_for_parts_of_their_region() {
+    let (view, triangles) = soup(3);
+    let few = triangles.into_iter().take(9);
+    let bins = Bins::for_spans(&view, TexelRect::of_size(view.size()), Cull::None, few);
+    let region = TexelRect::new(IVec2::new(9 * 256, 3 * 256), IVec2::new(66 * 256, 41 * 256));
+    let gathered = bins.gathered(region);
+    assert!(!gathered.is_empty() && gathered.len() <= bins.facets().len());
+    let mut kinds = [0; 3];
+    for part in TexelRect::of_size(UVec2::new(14, 9)).texels().map(|at| region.min + at * 1024) {
+        let part = TexelRect::new(part, part + 1024 + 64);
+        assert_eq!(gathered.seen(part), bins.seen(part), "{part:?}");
+        kinds[match gathered.seen(part) {
+            Seen::Nothing => 0,
+            Seen::One(_) => 1,
+            Seen::Several => 2,
+        }] += 1;
+        for lines in [Lines::Rows, Lines::Columns] {
+            let mut wanted = Vec::new();
+            bins.spans(part, lines, 64, |facet, line, along| wanted.push((facet.triangle, line, along)));
+            let mut found = Vec::new();
+            let mut numbers = BTreeMap::new();
+            gathered.spans(
+                part,
+                lines,
+                64,
+                |_| true,
+                |number, facet, line, along| {
+                    assert_eq!(*numbers.entry(number).or_insert(facet.triangle), facet.triangle);
+                    found.push((facet.triangle, line, along));
+                },
+            );
+            assert_eq!(found, wanted, "{lines:?} of {part:?}");
+            assert!(numbers.values().is_sorted() && numbers.keys().all(|number| *number < gathered.len()));
+            let (mut few, small) = (Vec::new(), |bounds: TexelRect| (bounds.max - bounds.min).x < 5000);
+            gathered.spans(part, lines, 64, small, |_, facet, line, along| few.push((facet.triangle, line, along)));
+            assert!(few.iter().all(|span| found.contains(span)) && few.len() <= found.len());
+        }
+    }
+    assert!(kinds.iter().all(|count| *count > 0), "{kinds:?} of nothing, one, several");
 }
