@@ -21,7 +21,7 @@ pub const KINDS: Figure = Figure {
     id: "U-auto-kinds",
     paper: Paper::Umbrage,
     title: "The default on what shadow maps find hard",
-    claim: "Fences, letters, stairs, louvres, cities, gears, hair, wheels and pergolas, with one setting and no rays.",
+    claim: "Fences, letters, stairs, louvres, cities, gears, hair, wheels, pergolas and rooms, with one setting and no rays.",
     make: |cx| figure(cx, &HARDER),
 };
 
@@ -30,8 +30,8 @@ type Column = (&'static str, &'static str, u32);
 
 /// Kinds of scenes that are reported together, and what is asked of them.
 struct Group {
-    /// Each kind twice: another shape under another light.
-    stages: &'static [(&'static str, [Make; 2])],
+    /// A scene of each kind: the second of the gallery's two, of other shapes under another light than the one that may be looked at while a recipe is made.
+    stages: &'static [(&'static str, Make)],
     /// One is [`AUTO`].
     columns: &'static [Column],
     /// The most that auto may be off by, by the side of its map.
@@ -43,8 +43,6 @@ struct Group {
     /// The least that an exact ray and the papers' best mixture are off by, which keeps the scenes hard.
     ray: f64,
     mix: f64,
-    /// Whether the second variants alone are made; otherwise the first are in the table, too.
-    second_alone: bool,
 }
 
 /// The recipe and the side of the map that the panels show.
@@ -52,13 +50,13 @@ const AUTO: (&str, u32) = ("auto", 512);
 
 const EASIER: Group = Group {
     stages: &[
-        ("solids", [|| gallery::solids(0), || gallery::solids(1)]),
-        ("spheres", [|| gallery::spheres(0), || gallery::spheres(1)]),
-        ("terrain", [|| gallery::terrain(0), || gallery::terrain(1)]),
-        ("leaves", [|| gallery::leaves(0), || gallery::leaves(1)]),
-        ("tubes", [|| gallery::tubes(0), || gallery::tubes(1)]),
-        ("contacts", [|| gallery::contacts(0), || gallery::contacts(1)]),
-        ("scan", [|| gallery::scan(0), || gallery::scan(1)]),
+        ("solids", || gallery::solids(1)),
+        ("spheres", || gallery::spheres(1)),
+        ("terrain", || gallery::terrain(1)),
+        ("leaves", || gallery::leaves(1)),
+        ("tubes", || gallery::tubes(1)),
+        ("contacts", || gallery::contacts(1)),
+        ("scan", || gallery::scan(1)),
     ],
     columns: &[
         ("papers' best mixture", MIX, 512),
@@ -73,20 +71,20 @@ const EASIER: Group = Group {
     wrong: 0.0001,
     ray: 0.02,
     mix: 0.04,
-    second_alone: true,
 };
 
 const HARDER: Group = Group {
     stages: &[
-        ("fence", [|| gallery::fence(0), || gallery::fence(1)]),
-        ("letters", [|| gallery::letters(0), || gallery::letters(1)]),
-        ("stairs", [|| gallery::stairs(0), || gallery::stairs(1)]),
-        ("louvres", [|| gallery::louvres(0), || gallery::louvres(1)]),
-        ("city", [|| gallery::city(0), || gallery::city(1)]),
-        ("gears", [|| gallery::gears(0), || gallery::gears(1)]),
-        ("hair", [|| gallery::hair(0), || gallery::hair(1)]),
-        ("wheels", [|| gallery::wheels(0), || gallery::wheels(1)]),
-        ("pergola", [|| gallery::pergola(0), || gallery::pergola(1)]),
+        ("fence", || gallery::fence(1)),
+        ("letters", || gallery::letters(1)),
+        ("stairs", || gallery::stairs(1)),
+        ("louvres", || gallery::louvres(1)),
+        ("city", || gallery::city(1)),
+        ("gears", || gallery::gears(1)),
+        ("hair", || gallery::hair(1)),
+        ("wheels", || gallery::wheels(1)),
+        ("pergola", || gallery::pergola(1)),
+        ("interior", || gallery::interior(1)),
     ],
     columns: &[
         ("Woo 1992", "woo92", 512),
@@ -100,7 +98,6 @@ const HARDER: Group = Group {
     wrong: 0.0005,
     ray: 0.05,
     mix: 0.06,
-    second_alone: false,
 };
 
 /// Columns of auto over maps that are fitted to the camera, and with more places in each pixel.
@@ -110,8 +107,6 @@ const FITTED_PLACES: Column = ("auto, 512², fitted, 8 × 8 places", "auto,windo
 /// What was measured of one scene.
 struct Found {
     kind: &'static str,
-    /// 0 or 1.
-    variant: usize,
     ray: f64,
     /// Error and bytes for each texel, for each column.
     columns: Vec<(Error, f64)>,
@@ -120,11 +115,8 @@ struct Found {
 fn figure(cx: &Context, group: &Group) -> anyhow::Result<Made> {
     let mut made = Made::default();
     let mut found = Vec::new();
-    for (kind, variants) in group.stages {
-        let left_out = usize::from(group.second_alone);
-        for (variant, make) in variants.iter().enumerate().skip(left_out) {
-            found.push(measured(cx, group, (kind, variant), *make, &mut made)?);
-        }
+    for (kind, make) in group.stages {
+        found.push(measured(cx, group, kind, *make, &mut made)?);
     }
     made.tables.push(table(group, &found));
     made.measures = measures(cx, group, &found);
@@ -135,13 +127,7 @@ fn figure(cx: &Context, group: &Group) -> anyhow::Result<Made> {
 }
 
 /// Measures one scene, and adds its panels.
-fn measured(
-    cx: &Context,
-    group: &Group,
-    (kind, variant): (&'static str, usize),
-    make: Make,
-    made: &mut Made,
-) -> anyhow::Result<Found> {
+fn measured(cx: &Context, group: &Group, kind: &'static str, make: Make, made: &mut Made) -> anyhow::Result<Found> {
     let pixels = cx.pick(512, 96);
     let judge = Judge::new(cx, make, pixels, AUTO.1);
     let mut columns = Vec::new();
@@ -150,16 +136,15 @@ fn measured(
         let (picture, bytes) = judge.by(cx, recipe, &Frame::CENTRES)?;
         columns.push((judge.error(&picture), bytes));
         if (recipe, side) == AUTO {
-            let id = format!("{kind}-{variant}");
             let (own, truth) = (&picture.shadow[0], &judge.truth().shadow[0]);
-            made.panels.push(shadow_panel(&id, kind, &picture).with("recipe", recipe));
-            made.panels.push(error_panel(&format!("{id}-error"), "Less truth", picture.size, own, truth));
-            made.panels.push(shadow_panel(&format!("{id}-truth"), "Ray-traced", judge.truth()).role(Role::Truth));
+            made.panels.push(shadow_panel(kind, kind, &picture).with("recipe", recipe));
+            made.panels.push(error_panel(&format!("{kind}-error"), "Less truth", picture.size, own, truth));
+            made.panels.push(shadow_panel(&format!("{kind}-truth"), "Ray-traced", judge.truth()).role(Role::Truth));
         }
     }
     // What rays see is the same for every size of map.
     let ray = judge.error(&judge.set.truth_points(cx, &Frame::CENTRES)).rms;
-    Ok(Found { kind, variant, ray, columns })
+    Ok(Found { kind, ray, columns })
 }
 
 /// The errors scene by scene and their means; of [`AUTO`] what is wrong and the bytes come last.
@@ -170,14 +155,11 @@ fn table(group: &Group, found: &[Found]) -> Table {
         .map(|one| {
             let (error, bytes) = one.columns[auto];
             let errors = one.columns.iter().map(|(error, _)| error.rms);
-            let name = format!("{}, {}", one.kind, VARIANTS[one.variant]);
-            row(&name, std::iter::once(one.ray).chain(errors).chain([error.wrong, bytes]))
+            row(one.kind, std::iter::once(one.ray).chain(errors).chain([error.wrong, bytes]))
         })
         .collect();
-    for (variant, name) in VARIANTS.iter().enumerate().filter(|(variant, _)| of(found, *variant).next().is_some()) {
-        let errors = (0..group.columns.len()).map(|column| mean_error(found, column, variant));
-        rows.push(row(&format!("mean of the {name}"), std::iter::once(mean_ray(found, variant)).chain(errors)));
-    }
+    let errors = (0..group.columns.len()).map(|column| mean_error(found, column));
+    rows.push(row("mean", std::iter::once(mean_ray(found)).chain(errors)));
     let names = group.columns.iter().map(|column| column.0);
     let head = ["error, rms", "one exact ray"].into_iter().chain(names).chain(["wrong", "bytes a texel"]);
     Table { name: "kinds".into(), head: head.map(String::from).collect(), rows }
@@ -185,35 +167,33 @@ fn table(group: &Group, found: &[Found]) -> Table {
 
 fn measures(cx: &Context, group: &Group, found: &[Found]) -> Vec<Measure> {
     let auto = group.column(AUTO);
-    let (least, over) = if group.second_alone { (1, ", second variants") } else { (0, "") };
-    let some = || found.iter().filter(|one| one.variant >= least);
-    let bytes = || some().map(|one| one.columns[auto].1);
-    let of_ray = mean(some().map(|one| one.columns[auto].0.rms)) / mean(some().map(|one| one.ray));
+    let bytes = || found.iter().map(|one| one.columns[auto].1);
+    let of_ray = mean(found.iter().map(|one| one.columns[auto].0.rms)) / mean(found.iter().map(|one| one.ray));
     let mut measures = Vec::new();
     for (side, most) in group.auto {
         let size = if *side == AUTO.1 { String::new() } else { format!(", {side}²") };
-        let error = mean_error(found, group.column((AUTO.0, *side)), 1);
-        let name = format!("auto{size}, second variants: error");
+        let error = mean_error(found, group.column((AUTO.0, *side)));
+        let name = format!("auto{size}: error");
         measures.push(Measure::at_most(&name, error, "rms", *most).full_size(cx.quick));
     }
-    let name = format!("auto over one exact ray{over}: error");
-    measures.insert(1, Measure::at_most(&name, of_ray, "times", 0.5).full_size(cx.quick));
-    let wrong = mean(some().map(|one| one.columns[auto].0.wrong));
-    let name = format!("auto: false shadow and false light, mean{over}");
-    measures.push(Measure::at_most(&name, wrong, "share", group.wrong).full_size(cx.quick));
+    let name = "auto over one exact ray: error";
+    measures.insert(1, Measure::at_most(name, of_ray, "times", 0.5).full_size(cx.quick));
+    let wrong = mean(found.iter().map(|one| one.columns[auto].0.wrong));
+    let name = "auto: false shadow and false light, mean";
+    measures.push(Measure::at_most(name, wrong, "share", group.wrong).full_size(cx.quick));
     // A map's bytes are the same for a picture of any size.
-    let name = format!("auto: bytes for each texel, mean{over}");
-    measures.push(Measure::at_most(&name, mean(bytes()), "bytes", 2.8));
-    let name = format!("auto: bytes for each texel, most{over}");
-    measures.push(Measure::at_most(&name, bytes().fold(0.0, f64::max), "bytes", 9.0));
-    let (ray, mix) = (mean_ray(found, 1), mean_error(found, group.column((MIX, 512)), 1));
+    let name = "auto: bytes for each texel, mean";
+    measures.push(Measure::at_most(name, mean(bytes()), "bytes", 2.8));
+    let name = "auto: bytes for each texel, most";
+    measures.push(Measure::at_most(name, bytes().fold(0.0, f64::max), "bytes", 9.0));
+    let (ray, mix) = (mean_ray(found), mean_error(found, group.column((MIX, 512))));
     measures.extend([
-        Measure::at_least("one exact ray, second variants: error", ray, "rms", group.ray).full_size(cx.quick),
-        Measure::at_least("papers' best mixture, second variants: error", mix, "rms", group.mix).full_size(cx.quick),
+        Measure::at_least("one exact ray: error", ray, "rms", group.ray).full_size(cx.quick),
+        Measure::at_least("papers' best mixture: error", mix, "rms", group.mix).full_size(cx.quick),
     ]);
     for ((name, recipe, side), most) in group.fitted {
-        let error = mean_error(found, group.column((recipe, *side)), 1);
-        let name = format!("{name}, second variants: error");
+        let error = mean_error(found, group.column((recipe, *side)));
+        let name = format!("{name}: error");
         measures.push(Measure::at_most(&name, error, "rms", *most).full_size(cx.quick));
     }
     measures
@@ -226,20 +206,12 @@ impl Group {
     }
 }
 
-/// What the variants are called.
-const VARIANTS: [&str; 2] = ["first", "second"];
-
-/// The scenes of one variant, 0 or 1.
-fn of(found: &[Found], variant: usize) -> impl Iterator<Item = &Found> + Clone {
-    found.iter().filter(move |one| one.variant == variant)
+/// A column's mean error.
+fn mean_error(found: &[Found], column: usize) -> f64 {
+    mean(found.iter().map(|one| one.columns[column].0.rms))
 }
 
-/// A column's mean error over the scenes of one variant.
-fn mean_error(found: &[Found], column: usize, variant: usize) -> f64 {
-    mean(of(found, variant).map(|one| one.columns[column].0.rms))
-}
-
-/// The mean error of exact rays over the scenes of one variant.
-fn mean_ray(found: &[Found], variant: usize) -> f64 {
-    mean(of(found, variant).map(|one| one.ray))
+/// The mean error of exact rays.
+fn mean_ray(found: &[Found]) -> f64 {
+    mean(found.iter().map(|one| one.ray))
 }

@@ -16,16 +16,13 @@ pub const WHERE: Figure = Figure {
     make: where_wrong,
 };
 
-const STAGES: [(&str, Make); 9] = [
-    ("fence", || gallery::fence(1)),
-    ("letters", || gallery::letters(1)),
+const STAGES: [(&str, Make); 6] = [
     ("stairs", || gallery::stairs(1)),
-    ("louvres", || gallery::louvres(1)),
-    ("city", || gallery::city(1)),
     ("gears", || gallery::gears(1)),
     ("hair", || gallery::hair(1)),
-    ("wheels", || gallery::wheels(1)),
     ("pergola", || gallery::pergola(1)),
+    ("interior", || gallery::interior(1)),
+    ("terrain", || gallery::terrain(1)),
 ];
 
 /// What may be at fault, the recipe that has more of it, and by how much the map's sides are longer.

@@ -15,6 +15,7 @@ mod foliage;
 mod four_spheres;
 mod glass_pane;
 mod hall;
+mod interior;
 mod kind;
 mod kinds;
 mod lamp;
@@ -47,6 +48,7 @@ pub use desk_lamps::desk_lamps;
 pub use everyday::{leaves, solids, spheres};
 pub use four_spheres::{four_spheres, four_spheres_lit_from};
 pub use glass_pane::glass_pane;
+pub use interior::interior;
 pub use kinds::{city, fence, gears, hair, letters, louvres, pergola, stairs, wheels};
 pub use moving_ball::moving_ball;
 pub use pipes::{pipe_segments, pipes};
@@ -115,6 +117,8 @@ pub const ALL: &[(&str, Make)] = &[
     ("wheels-2", || wheels(1)),
     ("pergola", || pergola(0)),
     ("pergola-2", || pergola(1)),
+    ("interior", || interior(0)),
+    ("interior-2", || interior(1)),
     ("solids", || solids(0)),
     ("solids-2", || solids(1)),
     ("spheres", || spheres(0)),
