@@ -131,7 +131,7 @@ pub const FIELDS: &[Field] = &[
         AUTO,
         [("1", 1), ("2", 2), ("4", 4), ("8", 8), ("16", 16)],
         |values| values.dual.across,
-        "places along each side of a region that are asked",
+        "lines across a region along which edges are looked for; 1 asks about its point alone",
         ""
     ),
     words!(

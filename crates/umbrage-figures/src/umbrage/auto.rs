@@ -41,9 +41,9 @@ pub(super) const SAMPLED: Frame =
 /// What else is shown of it: name, recipe, and how the camera looks.
 const BESIDE: [(&str, &str, Frame); 4] = [
     ("auto, the camera with 4 × 4 samples", "auto", SAMPLED),
-    ("and 8 × 8 places", "auto,across=8", SAMPLED),
+    ("and eight lines", "auto,across=8", SAMPLED),
     ("auto, the map's window fitted to the camera", "auto,window=fitted", Frame::CENTRES),
-    ("and 8 × 8 places", "auto,window=fitted,across=8", Frame::CENTRES),
+    ("and eight lines", "auto,window=fitted,across=8", Frame::CENTRES),
 ];
 
 /// What each part adds, in turn, after the controls.
@@ -51,10 +51,10 @@ const LADDER: [(&str, &str); 7] = [
     ("Woo 1992", "woo92"),
     ("midpoints, tangent plane, a tent: the papers' best mixture", MIX),
     ("facets: two planes, one place", "auto,fine=1,across=1"),
-    ("and the mean of 4 × 4 places", "auto,fine=1"),
+    ("and four lines across the pixel, whose edges are looked for", "auto,fine=1"),
     ("and 4 × 4 samples where one plane does not do, edges halfway", "auto,slots=2"),
     ("and links of 16 slots: auto", "auto"),
-    ("and 8 × 8 places", "auto,across=8"),
+    ("and eight lines", "auto,across=8"),
 ];
 
 pub(super) fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
@@ -103,7 +103,7 @@ pub const LADDER_OF_PARTS: Figure = Figure {
     id: "U-auto-ladder",
     paper: Paper::Umbrage,
     title: "What each part of the default adds",
-    claim: "Without a bias, one small map of facets comes closer to many rays a pixel than one exact ray does.",
+    claim: "Without a bias, one small map of facets comes closer to truth than sixteen exact rays a pixel.",
     make: ladder,
 };
 
@@ -113,11 +113,12 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
     let mut found = vec![Vec::new(); LADDER.len()];
     let mut smaller = [Vec::new(), Vec::new()];
     let mut beside = vec![Vec::new(); BESIDE.len()];
-    let (mut exact, mut bytes, mut noise) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut exact, mut many, mut bytes, mut noise) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for (_, make) in STAGES {
         let judge = Judge::new(cx, make, pixels, texels);
         exact.push(judge.error(&judge.set.truth_points(cx, &Frame::CENTRES)));
         noise.push(judge.noise());
+        many.push(judge.error(&judge.rays(cx, 4)));
         for (step, (_, recipe)) in LADDER.iter().enumerate() {
             let (picture, kept) = judge.by(cx, recipe, &Frame::CENTRES)?;
             found[step].push(judge.error(&picture));
@@ -139,7 +140,7 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
     let line = |name: &str, errors: &[Error]| with_mean(name, errors.iter().map(|error| error.rms).collect());
     let several = |name: &str, errors: &[Error]| with_mean(name, errors.iter().map(|error| error.several).collect());
     let auto = LADDER.iter().position(|(_, recipe)| *recipe == "auto").unwrap_or(0);
-    let mut rows = vec![line("one exact ray at the centre", &exact)];
+    let mut rows = vec![line("one exact ray at the centre", &exact), line("16 exact rays", &many)];
     rows.extend(LADDER.iter().zip(&found).map(|((name, _), errors)| line(name, errors)));
     rows.extend(BESIDE.iter().zip(&beside).map(|((name, ..), errors)| line(name, errors)));
     for (size, errors) in ["half the size", "a quarter of the size"].into_iter().zip(&smaller) {
@@ -148,12 +149,13 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
     rows.push(several("pixels of several surfaces too: one exact ray", &exact));
     rows.push(several("pixels of several surfaces too: auto", &found[auto]));
     rows.push(several("pixels of several surfaces too: auto, the camera with 4 × 4 samples", &beside[0]));
-    rows.push(several("and 8 × 8 places", &beside[1]));
+    rows.push(several("and eight lines", &beside[1]));
     rows.push(with_mean("truth: half of its rays less the other half", noise.clone()));
     rows.push(with_mean("auto: bytes for each texel", bytes.clone()));
     made.tables.push(Table { name: "errors".into(), head, rows });
     let rms = |step: usize| mean(found[step].iter().map(|error| error.rms));
     let ray = mean(exact.iter().map(|error| error.rms));
+    let sixteen = mean(many.iter().map(|error: &Error| error.rms));
     let mut plot = Plot::new(
         "Error, mean of all scenes, as each part is added",
         Axis::linear("parts"),
@@ -162,7 +164,12 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
     let parts = (CONTROLS..LADDER.len()).map(|step| ((step - CONTROLS + 1) as f64, rms(step))).collect();
     plot = plot.add(Series::line("auto part by part", parts));
     let level = |rms: f64| vec![(1.0, rms), ((LADDER.len() - CONTROLS) as f64, rms)];
-    for (name, rms) in [("Woo 1992", rms(0)), ("papers' best mixture", rms(1)), ("one exact ray at the centre", ray)] {
+    for (name, rms) in [
+        ("Woo 1992", rms(0)),
+        ("papers' best mixture", rms(1)),
+        ("one exact ray at the centre", ray),
+        ("16 exact rays", sixteen),
+    ] {
         plot = plot.add(Series::line(name, level(rms)));
     }
     made.plots.push(("ladder".into(), plot.svg()));
@@ -193,9 +200,12 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
             .full_size(cx.quick),
         Measure::info("camera with 4 × 4 samples, several surfaces too: error, mean", beside_several(0), "rms"),
         Measure::at_most("fitted window: error, mean of all scenes", beside_mean(2), "rms", 0.007).full_size(cx.quick),
-        Measure::at_most("fitted window, 8 × 8 places: error, mean of all scenes", beside_mean(3), "rms", 0.0055)
+        Measure::at_most("fitted window, eight lines: error, mean of all scenes", beside_mean(3), "rms", 0.0055)
             .full_size(cx.quick),
-        Measure::info("8 × 8 places: error, mean of all scenes", rms(LADDER.len() - 1), "rms"),
+        Measure::info("eight lines: error, mean of all scenes", rms(LADDER.len() - 1), "rms"),
+        Measure::at_most("auto over 16 exact rays a pixel: error", rms(auto) / sixteen, "times", 1.0)
+            .full_size(cx.quick),
+        Measure::info("16 exact rays a pixel: error, mean of all scenes", sixteen, "rms"),
         Measure::info("papers' best mixture: error, mean of all scenes", rms(1), "rms"),
         Measure::info("one exact ray: error, mean of all scenes", ray, "rms"),
     ];

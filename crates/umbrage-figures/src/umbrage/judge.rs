@@ -63,6 +63,14 @@ impl Judge {
         &self.many.picture
     }
 
+    /// The picture by `axis` × `axis` exact rays a pixel, other ones than truth's.
+    pub fn rays(&self, cx: &Context, axis: u32) -> Picture {
+        let scene = &self.set.scene;
+        let geometry = Geometry::new(scene, &scene.camera);
+        let rays = RayCast::new(&geometry, &scene.lights[0].view);
+        self.set.draw(cx, &rays, &Frame { axis, every_sample: true, number: 1000, ..Frame::default() })
+    }
+
     /// Root mean square, over pixels of one surface, of the difference between the first half of truth's rays and the other half. By itself, each half is
     /// less exact than all of them.
     pub fn noise(&self) -> f64 {

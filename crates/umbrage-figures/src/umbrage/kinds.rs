@@ -64,10 +64,10 @@ const EASIER: Group = Group {
         ("auto, 256²", "auto", 256),
         ("auto, 512²", "auto", 512),
         FITTED,
-        FITTED_PLACES,
+        FITTED_LINES,
     ],
     auto: &[(512, 0.009), (256, 0.013), (128, 0.02)],
-    fitted: &[(FITTED, 0.007), (FITTED_PLACES, 0.0055)],
+    fitted: &[(FITTED, 0.007), (FITTED_LINES, 0.0055)],
     wrong: 0.0001,
     ray: 0.02,
     mix: 0.04,
@@ -91,18 +91,18 @@ const HARDER: Group = Group {
         ("papers' best mixture", MIX, 512),
         ("auto, 256²", "auto", 256),
         ("auto, 512²", "auto", 512),
-        FITTED_PLACES,
+        FITTED_LINES,
     ],
     auto: &[(512, 0.012), (256, 0.02)],
-    fitted: &[(FITTED_PLACES, 0.008)],
+    fitted: &[(FITTED_LINES, 0.008)],
     wrong: 0.0005,
     ray: 0.05,
     mix: 0.06,
 };
 
-/// Columns of auto over maps that are fitted to the camera, and with more places in each pixel.
+/// Columns of auto over maps that are fitted to the camera, and with more lines across each pixel.
 const FITTED: Column = ("auto, 512², fitted", "auto,window=fitted", 512);
-const FITTED_PLACES: Column = ("auto, 512², fitted, 8 × 8 places", "auto,window=fitted,across=8", 512);
+const FITTED_LINES: Column = ("auto, 512², fitted, eight lines", "auto,window=fitted,across=8", 512);
 
 /// What was measured of one scene.
 struct Found {

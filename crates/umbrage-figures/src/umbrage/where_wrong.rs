@@ -12,7 +12,7 @@ pub const WHERE: Figure = Figure {
     id: "U-auto-where",
     paper: Paper::Umbrage,
     title: "The default's worst pixels, and why they are wrong",
-    claim: "What is left is at edges finer than the map's samples or the pixel's places; no surface shadows itself and none leaks.",
+    claim: "What is left is at edges finer than the map's samples; no surface shadows itself and none leaks.",
     make: where_wrong,
 };
 
@@ -27,7 +27,7 @@ const STAGES: [(&str, Make); 6] = [
 
 /// What may be at fault, the recipe that has more of it, and by how much the map's sides are longer.
 const CAUSES: [(&str, &str, u32); 4] = [
-    ("places asked in the pixel: 16 × 16", "auto,across=16", 1),
+    ("lines across the pixel: 16", "auto,across=16", 1),
     ("samples in a texel: 8 × 8", "auto,fine=8,slots=8", 1),
     ("texels: a map four times as large", "auto", 2),
     ("what a sample must be passed by: nothing", "auto,width-term=0,slope-term=0", 1),
@@ -103,7 +103,7 @@ fn where_wrong(cx: &Context) -> anyhow::Result<Made> {
         Measure::at_most("those of them farther than three pixels from any edge", f64::from(far), "pixels", 0.0)
             .full_size(cx.quick),
         Measure::info(
-            "squared error that more places, samples or texels halve",
+            "squared error that more lines, samples or texels halve",
             share(0) + share(1) + share(2),
             "share",
         ),
