@@ -1,5 +1,6 @@
 //! Pass 1 of maps that keep facets.
 
+mod casters;
 mod links;
 mod nearest;
 mod refined;
@@ -8,15 +9,17 @@ mod surface;
 
 pub use refinement::Refinement;
 
+use crate::Caster;
+use crate::masks::Masks;
 use crate::pass1::Pass;
 use glam::{IVec2, UVec2};
 use rayon::prelude::*;
-use refined::Parts;
+use refined::{Parts, Refined};
 use std::collections::HashMap;
 use std::sync::Arc;
 use umbrage_depth::{FacetCells, FacetDepths, FacetMap, FacetRule, FacetTile, First, NO_FACET, Stored};
 use umbrage_plane::{Facet, Facing, Sampling, TexelRect, View};
-use umbrage_raster::{BIN, Bins, Cull, Stats, Triangle, each_fragment};
+use umbrage_raster::{BIN, Bins, Cull, Stats, each_fragment};
 
 /// Most bytes of a refined map for each of its texels. Beyond it the tiles that take most keep no samples.
 const MOST_BYTES: usize = 10;
@@ -35,14 +38,16 @@ pub struct BakedFacets {
 
 /// [`bake`](crate::bake), keeping which facet each texel sees: the same depths, bit for bit, in less room where facets are larger than a
 /// few texels. Of facets at one key the first triangle's.
-pub fn bake_facets<R: FacetRule>(
+pub fn bake_facets<'a, R: FacetRule>(
     view: &View,
-    triangles: impl IntoIterator<Item = Triangle>,
+    casters: impl IntoIterator<Item: Into<Caster<'a>>>,
     rule: &R,
     cull: Cull,
 ) -> BakedFacets {
+    let mut masks = Masks::new(view);
+    let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
     let bins = Bins::new(view, TexelRect::of_size(view.size()), cull, triangles);
-    let pass = Pass { view, fine: view, rule, front: |facet: &Facet, _| facet.facing == Facing::Front };
+    let pass = Pass { view, fine: view, rule, masks: &masks, front: |facet: &Facet, _| facet.facing == Facing::Front };
     let stored = match (rule.stored(), cull) {
         (Stored::First, Cull::Front) => Stored::BackFace,
         (stored, _) => stored,
@@ -53,7 +58,7 @@ pub fn bake_facets<R: FacetRule>(
         let origin = (tile * BIN).as_ivec2();
         let mut texels = vec![NO_FACET; CELLS];
         let (mut planes, mut index) = (Vec::new(), HashMap::new());
-        bins.tile(tile, |facet, coverage| {
+        masks.tile(&bins, tile, |facet, coverage| {
             each_fragment(view, origin, facet, coverage, |cell, _, key| {
                 if texels[cell] == NO_FACET && key == rule.key(&cells[cell]) {
                     texels[cell] = *index.entry(facet.triangle).or_insert_with(|| {
@@ -72,27 +77,29 @@ pub fn bake_facets<R: FacetRule>(
 /// them: what [`DualPlane`] asks. Texels are sampled at their centres, whatever the view's own sampling.
 ///
 /// A texel is refined when one of its samples, or the first sample beyond its right or lower side, lies off its own plane by more than
-/// the tolerance, as far as ten bytes for each of the map's texels go round. A link is kept between neighbouring samples of refined texels whose facets' planes do not meet there.
+/// the tolerance, as far as ten bytes for each of the map's texels go round. A link is kept between neighbouring samples of refined
+/// texels whose facets' planes do not meet there. A caster's [mask](crate::Mask) is asked at every sample and at every slot of a link:
+/// its holes are edges like any others.
 ///
 /// [`DualPlane`]: https://docs.rs/umbrage-shadow
 ///
 /// # Panics
 /// When `fine` is not 2, 4 or 8, or `slots` is not a power of two from 2 to 64/`fine`.
-pub fn bake_refined(
+pub fn bake_refined<'a>(
     view: &View,
-    triangles: impl IntoIterator<Item = Triangle>,
+    casters: impl IntoIterator<Item: Into<Caster<'a>>>,
     refinement: &Refinement,
 ) -> BakedFacets {
     let Refinement { fine, slots, .. } = *refinement;
     assert!(matches!(fine, 2 | 4 | 8), "{fine} samples along a texel's side");
     assert!(slots > 1 && slots.is_power_of_two() && slots * fine <= 64, "{slots} slots with {fine} samples");
     let view = &view.with_sampling(Sampling::Centre);
+    let mut masks = Masks::new(view);
+    let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
     let bins = Bins::for_spans(view, TexelRect::of_size(view.size()), Cull::None, triangles);
     let depths = FacetDepths::of(view);
-    let kept = |tile: UVec2, parts: Parts| {
-        let found = refined::tile(view, &bins, tile, refinement, parts)?;
-        pack(view, &depths, tile, fine, &found.cells())
-    };
+    let refined = Refined { view, bins: &bins, masks: &masks, refinement };
+    let kept = |tile: UVec2, parts: Parts| pack(view, &depths, tile, fine, &refined.tile(tile, parts)?.cells());
     let mut tiles = by_tile(view, |tile| kept(tile, Parts::All));
     let plain = over_budget(view, &tiles);
     let grid = view.size().map(|side| side.div_ceil(BIN));
