@@ -1,4 +1,6 @@
+use crate::Mask;
 use glam::Vec3;
+use std::fmt;
 use umbrage_raster::Triangle;
 
 /// A triangle, and what some kinds of map want to know of it beyond its corners.
@@ -14,9 +16,31 @@ use umbrage_raster::Triangle;
 /// let leaf = Caster::from(Triangle { corners, object: 3, sheet: true }).with_opacity(0.75);
 /// assert_eq!((leaf.passes, leaf.normals), (Vec3::splat(0.25), None));
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+///
+/// A caster may have holes, of which its [mask](Self::mask) knows, such as the alpha of a texture. It is borrowed, so that casters are
+/// cheap to copy and one mask serves as many of them as one likes:
+///
+/// ```
+/// # use glam::{DVec3, IVec2, UVec2, Vec2};
+/// # use umbrage_bake::{Caster, MaskPlace, bake};
+/// # use umbrage_depth::{DepthMap, First};
+/// # use umbrage_plane::View;
+/// # use umbrage_raster::{Cull, Triangle};
+/// // The left half of a square is there.
+/// let uvs = [[Vec2::ZERO, Vec2::X, Vec2::ONE], [Vec2::ZERO, Vec2::ONE, Vec2::Y]];
+/// let alpha = |at: &MaskPlace| at.mix(uvs[at.triangle as usize]).x < 0.5;
+/// let view = View::orthographic(DVec3::Z * 9.0, DVec3::ZERO, DVec3::Y, 16.0, 1.0, 20.0, UVec2::splat(32))?;
+/// let square = uvs.map(|uvs| {
+///     let corners = uvs.map(|uv| (uv * 32.0 - 16.0).extend(0.0));
+///     Caster::from(Triangle::new(corners, 0, true)).with_mask(&alpha)
+/// });
+/// let map = bake(&view, square, &First, Cull::None).map;
+/// assert_eq!([15, 16].map(|x| map.depth(IVec2::new(x, 9))), [9.0, f32::INFINITY]);
+/// # Ok::<(), umbrage_plane::ViewError>(())
+/// ```
+#[derive(Clone, Copy)]
 #[non_exhaustive]
-pub struct Caster {
+pub struct Caster<'a> {
     /// Where it is, and whose.
     pub triangle: Triangle,
     /// The fraction of the light that passes it, linear RGB; 0 is opaque. What lies outside 0..=1 counts as the nearer end of it, NaN as 0.
@@ -25,9 +49,13 @@ pub struct Caster {
     /// The shading normals at its corners, in their order, of any length but 0; `None` for a flat triangle. Asked for by
     /// [`bake_by_normals`](crate::bake_by_normals) alone.
     pub normals: Option<[Vec3; 3]>,
+    /// Who is asked, wherever the triangle would be seen, whether anything of it is there; `None` for a triangle without holes. Every
+    /// kind of map asks, at each of its samples, and a [refined](crate::bake_refined) one at the slots of its links too. Where nothing
+    /// is there the sample sees what is behind, as if the triangle had not been given. Holes between samples are not seen.
+    pub mask: Option<Mask<'a>>,
 }
 
-impl Caster {
+impl<'a> Caster<'a> {
     /// The same, letting `passes` of the light through, linear RGB: the colour of glass.
     #[must_use]
     pub fn with_passes(self, passes: Vec3) -> Self {
@@ -46,6 +74,12 @@ impl Caster {
         Self { normals: Some(normals), ..self }
     }
 
+    /// The same with holes, wherever the mask says that nothing is there.
+    #[must_use]
+    pub fn with_mask(self, mask: Mask<'a>) -> Self {
+        Self { mask: Some(mask), ..self }
+    }
+
     /// What passes, as a map can store it.
     pub(crate) fn passing(&self) -> Vec3 {
         // `max` first: it turns NaN into 0.
@@ -53,8 +87,31 @@ impl Caster {
     }
 }
 
-impl From<Triangle> for Caster {
+impl From<Triangle> for Caster<'_> {
+    #[inline]
     fn from(triangle: Triangle) -> Self {
-        Self { triangle, passes: Vec3::ZERO, normals: None }
+        Self { triangle, passes: Vec3::ZERO, normals: None, mask: None }
+    }
+}
+
+impl fmt::Debug for Caster<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Caster")
+            .field("triangle", &self.triangle)
+            .field("passes", &self.passes)
+            .field("normals", &self.normals)
+            .field("masked", &self.mask.is_some())
+            .finish()
+    }
+}
+
+/// Masks are the same when they are one and the same function at one place in memory, not when they say the same.
+impl PartialEq for Caster<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        let same = match (self.mask, other.mask) {
+            (Some(own), Some(other)) => std::ptr::eq(own, other),
+            (own, other) => own.is_none() && other.is_none(),
+        };
+        same && (self.triangle, self.passes, self.normals) == (other.triangle, other.passes, other.normals)
     }
 }

@@ -1,4 +1,5 @@
 use crate::Caster;
+use crate::masks::Masks;
 use glam::{DVec3, UVec2, Vec3};
 use rayon::prelude::*;
 use std::cmp::Ordering;
@@ -69,9 +70,10 @@ struct Fragment {
 }
 
 /// The triangles of one moment, and what passes each of them.
-struct Moment {
+struct Moment<'a> {
     bins: Bins,
     passes: Vec<Vec3>,
+    masks: Masks<'a>,
 }
 
 /// A deep map, and what became of the triangles of all moments.
@@ -89,14 +91,14 @@ pub struct BakedDeep {
 /// `moments` are the triangles at evenly spread times, one of them for what is at rest; none gives an empty map. What is nearer than the near plane stands at it (C-10). The result
 /// does not depend on the number of threads. Maps too large for the samples, which are one grid of at most 32,768 a side, get as many as fit.
 #[expect(clippy::missing_panics_doc, reason = "a view has at most 32,768 texels a side, and as many samples as fit")]
-pub fn bake_deep<M>(view: &View, moments: impl IntoIterator<Item = M>, deep: &Deep) -> BakedDeep
+pub fn bake_deep<'a, M>(view: &View, moments: impl IntoIterator<Item = M>, deep: &Deep) -> BakedDeep
 where
-    M: IntoIterator<Item: Into<Caster>>,
+    M: IntoIterator<Item: Into<Caster<'a>>>,
 {
     let fitting = 32_768 / view.size().max_element();
     let axis = deep.axis.min(1 << fitting.max(1).ilog2());
     let fine = view.with_size(view.size() * axis).expect("as many samples as fit");
-    let moments: Vec<Moment> = moments.into_iter().map(|casters| Moment::new(&fine, casters)).collect();
+    let moments: Vec<Moment<'a>> = moments.into_iter().map(|casters| Moment::new(&fine, casters)).collect();
     let size = fine.size();
     let grid = size.map(|side| side.div_ceil(BIN));
     let gather = Gather { fine: &fine, moments: &moments, axis, epsilon: deep.epsilon };
@@ -118,16 +120,16 @@ where
     BakedDeep { map, stats }
 }
 
-impl Moment {
-    fn new(fine: &View, casters: impl IntoIterator<Item: Into<Caster>>) -> Self {
-        let mut passes = Vec::new();
+impl<'a> Moment<'a> {
+    fn new(fine: &View, casters: impl IntoIterator<Item: Into<Caster<'a>>>) -> Self {
+        let (mut passes, mut masks) = (Vec::new(), Masks::new(fine));
         let triangles = casters.into_iter().map(|caster| {
-            let caster: Caster = caster.into();
+            let caster: Caster<'a> = caster.into();
             passes.push(caster.passing());
-            caster.triangle
+            masks.note(caster)
         });
         let bins = Bins::new(fine, TexelRect::of_size(fine.size()), Cull::None, triangles);
-        Self { bins, passes }
+        Self { bins, passes, masks }
     }
 
     fn passes(&self, fragment: &Fragment) -> DVec3 {
@@ -137,7 +139,7 @@ impl Moment {
 
 struct Gather<'a> {
     fine: &'a View,
-    moments: &'a [Moment],
+    moments: &'a [Moment<'a>],
     axis: u32,
     epsilon: f32,
 }
@@ -150,7 +152,7 @@ impl Gather<'_> {
         let mut falls: Vec<Vec<(f32, DVec3)>> = Vec::new();
         for moment in self.moments {
             let mut met: Vec<Fragment> = Vec::new();
-            moment.bins.tile(tile, |facet, coverage| {
+            moment.masks.tile(&moment.bins, tile, |facet, coverage| {
                 each_fragment(self.fine, origin, facet, coverage, |cell, _, key| {
                     if !key.is_nan() {
                         let Facet { object, triangle, .. } = *facet;
@@ -180,7 +182,7 @@ impl Gather<'_> {
     }
 
     /// What the light loses at each surface of one sample.
-    fn add(&self, moment: &Moment, sample: &[Fragment], at: glam::DVec2, falls: &mut Vec<(f32, DVec3)>) {
+    fn add(&self, moment: &Moment<'_>, sample: &[Fragment], at: glam::DVec2, falls: &mut Vec<(f32, DVec3)>) {
         let decode = self.fine.decode();
         let nearest = decode.depth(self.fine.key(self.fine.near()) as f32, at);
         let mut light = DVec3::ONE;

@@ -12,8 +12,9 @@
 //! | [`bake_tags`] | the nearest object's id per texel | Hourcade & Nicolas 1985 |
 //! | [`mix_moments`] | one map of an exposure from the maps of its moments | |
 //!
-//! [`bake`] needs a triangle's corners only. The functions that ask for more of it, what light it lets through or the normals of its vertices,
-//! take anything that becomes a [`Caster`].
+//! A triangle's corners are all that most of them need, and they take bare [`Triangle`](umbrage_raster::Triangle)s. What some ask beyond that
+//! comes with a [`Caster`], which all of them take: what light it lets through, the normals of its vertices, and a [`Mask`] that says where it has
+//! holes, which every function asks at every sample.
 //!
 //! ```
 //! use glam::{DVec3, IVec2, UVec2, Vec3};
@@ -45,14 +46,18 @@
 mod caster;
 mod deep;
 mod facets;
+mod mask;
+mod masks;
 mod moments;
 mod normals;
 mod pass1;
+mod rays;
 mod tags;
 
 pub use caster::Caster;
 pub use deep::{BakedDeep, Deep, bake_deep};
 pub use facets::{BakedFacets, Refinement, bake_facets, bake_refined};
+pub use mask::{Mask, MaskPlace};
 pub use moments::mix_moments;
 pub use normals::bake_by_normals;
 pub use pass1::{Baked, advised_map_sizes, bake, bake_multi};

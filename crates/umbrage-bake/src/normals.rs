@@ -1,8 +1,10 @@
+use crate::masks::Masks;
 use crate::pass1::Pass;
+use crate::rays::{places, ray};
 use crate::{Baked, Caster};
 use glam::{DMat3, DVec2, DVec3};
 use umbrage_depth::DepthRule;
-use umbrage_plane::{Facet, Facing, Projection, TexelRect, View};
+use umbrage_plane::{Facet, Facing, TexelRect, View};
 use umbrage_raster::{Bins, Cull};
 
 /// [`bake`](crate::bake) for curved surfaces: which side of a surface is seen is asked of its *interpolated* normals at each sample, the test of
@@ -10,20 +12,21 @@ use umbrage_raster::{Bins, Cull};
 ///
 /// N·L is interpolated as a camera would, in proportion over the triangle, not over the map. Where a triangle is edge-on to the light its own
 /// facing decides, and so it does for triangles without [normals](Caster::normals).
-pub fn bake_by_normals<R: DepthRule>(
+pub fn bake_by_normals<'a, R: DepthRule>(
     view: &View,
-    casters: impl IntoIterator<Item = impl Into<Caster>>,
+    casters: impl IntoIterator<Item: Into<Caster<'a>>>,
     rule: &R,
 ) -> Baked {
-    let casters: Vec<Caster> = casters.into_iter().map(Into::into).collect();
+    let casters: Vec<Caster<'a>> = casters.into_iter().map(Into::into).collect();
     let sides: Vec<Option<DVec3>> = casters.iter().map(|caster| side(view, caster)).collect();
     let front = |facet: &Facet, at: DVec2| match sides.get(facet.triangle as usize) {
         Some(Some(side)) => side.dot(ray(view, at)) > 0.0,
         _ => facet.facing == Facing::Front,
     };
-    let triangles = casters.iter().map(|caster| caster.triangle);
+    let mut masks = Masks::new(view);
+    let triangles = casters.iter().map(|caster| masks.note(*caster));
     let bins = Bins::new(view, TexelRect::of_size(view.size()), Cull::None, triangles);
-    Pass { view, fine: view, rule, front }.run(&bins, Cull::None)
+    Pass { view, fine: view, rule, masks: &masks, front }.run(&bins, Cull::None)
 }
 
 /// A vector whose product with [`ray`] has the sign of N·L at each place of a triangle; `None` for one that is edge-on or
@@ -31,26 +34,16 @@ pub fn bake_by_normals<R: DepthRule>(
 ///
 /// N·L times the distance is linear over the triangle. In perspective a linear function of eye space divided by ζ is one of the ray; in an
 /// orthographic view it is one of the place itself.
-fn side(view: &View, caster: &Caster) -> Option<DVec3> {
+fn side(view: &View, caster: &Caster<'_>) -> Option<DVec3> {
     let (corners, normals) = (caster.triangle.corners, caster.normals?);
     let to_eye = view.world_to_eye();
     let eye = corners.map(|corner| to_eye.transform_point3(corner));
     let toward = |at: DVec3| if view.is_perspective() { -at } else { DVec3::Z };
     let normals = normals.map(|normal| to_eye.transform_vector3(normal.as_dvec3()));
     let facing = DVec3::from_array(std::array::from_fn(|i| normals[i].dot(toward(eye[i]))));
-    let places = eye.map(|at| if view.is_perspective() { at } else { DVec3::new(at.x, at.y, 1.0) });
+    let places = places(view, eye);
     let rows = DMat3::from_cols(places[0], places[1], places[2]).transpose();
     let edges = (eye[1] - eye[0]).length() * (eye[2] - eye[0]).length();
     let away = if view.is_perspective() { eye[0].length() } else { 1.0 };
     (rows.determinant().abs() > 1e-9 * edges * away).then(|| rows.inverse() * facing)
-}
-
-/// Where a place of the map looks in eye space: (x/ζ, y/ζ, −1), or (x, y, 1) in an orthographic view.
-fn ray(view: &View, texel: DVec2) -> DVec3 {
-    let screen =
-        DVec2::new(2.0, -2.0) * texel / view.size().as_dvec2() + DVec2::new(-1.0, 1.0) - view.projection().shift();
-    match view.projection() {
-        Projection::Perspective { k, .. } => (screen / k).extend(-1.0),
-        Projection::Orthographic { half, .. } => (screen * half).extend(1.0),
-    }
 }

@@ -1,9 +1,11 @@
+use crate::Caster;
+use crate::masks::Masks;
 use glam::{DVec2, IVec2, UVec2};
 use rayon::prelude::*;
 use std::sync::Arc;
 use umbrage_depth::{DepthRule, Reduction, Stored, Tile, Tiled};
 use umbrage_plane::{Facet, Facing, TexelRect, View, ViewError};
-use umbrage_raster::{BIN, Bins, Cull, Stats, Triangle, each_fragment};
+use umbrage_raster::{BIN, Bins, Cull, Stats, each_fragment};
 
 /// A depth map, and what became of the triangles.
 #[derive(Clone, Debug)]
@@ -22,9 +24,18 @@ pub struct Baked {
 /// Works tile by tile: a tile's cells are made when its first fragment comes, and leave resolved, with their minimum and
 /// maximum. Tiles that nobody touches are never allocated. What is nearer than the near plane is stored at the
 /// near plane (C-10). The result does not depend on the number of threads.
-pub fn bake<R: DepthRule>(view: &View, triangles: impl IntoIterator<Item = Triangle>, rule: &R, cull: Cull) -> Baked {
+///
+/// `casters` are [`Triangle`](umbrage_raster::Triangle)s or [`Caster`]s.
+pub fn bake<'a, R: DepthRule>(
+    view: &View,
+    casters: impl IntoIterator<Item: Into<Caster<'a>>>,
+    rule: &R,
+    cull: Cull,
+) -> Baked {
+    let mut masks = Masks::new(view);
+    let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
     let bins = Bins::new(view, TexelRect::of_size(view.size()), cull, triangles);
-    Pass { view, fine: view, rule, front: by_winding }.run(&bins, cull)
+    Pass { view, fine: view, rule, masks: &masks, front: by_winding }.run(&bins, cull)
 }
 
 /// [`bake`] with `axis` × `axis` samples a texel, all of whose fragments count for the texel: what *hits* it, not what lies at one place
@@ -35,16 +46,18 @@ pub fn bake<R: DepthRule>(view: &View, triangles: impl IntoIterator<Item = Trian
 ///
 /// # Errors
 /// When the samples are more than a view may have: the map's sides times `axis`, 0 included.
-pub fn bake_multi<R: DepthRule>(
+pub fn bake_multi<'a, R: DepthRule>(
     view: &View,
-    triangles: impl IntoIterator<Item = Triangle>,
+    casters: impl IntoIterator<Item: Into<Caster<'a>>>,
     rule: &R,
     cull: Cull,
     axis: u32,
 ) -> Result<Baked, ViewError> {
     let fine = view.with_size(view.size().saturating_mul(UVec2::splat(axis)))?;
+    let mut masks = Masks::new(&fine);
+    let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
     let bins = Bins::new(&fine, TexelRect::of_size(fine.size()), cull, triangles);
-    Ok(Pass { view, fine: &fine, rule, front: by_winding }.run(&bins, cull))
+    Ok(Pass { view, fine: &fine, rule, masks: &masks, front: by_winding }.run(&bins, cull))
 }
 
 /// Whether a facet's outside is seen: the side from which its corners are counter-clockwise.
@@ -65,6 +78,8 @@ pub(crate) struct Pass<'a, R, F> {
     /// The same with a whole number of samples along each side of a texel.
     pub fine: &'a View,
     pub rule: &'a R,
+    /// Of `fine`.
+    pub masks: &'a Masks<'a>,
     /// Whether a facet's outside is seen at a sample of `fine`.
     pub front: F,
 }
@@ -117,7 +132,7 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
             for part in 0..axis * axis {
                 let part = tile * axis + UVec2::new(part % axis, part / axis);
                 let origin = (part * BIN).as_ivec2();
-                bins.tile(part, |facet, coverage| {
+                self.masks.tile(bins, part, |facet, coverage| {
                     let cells = cells.get_or_insert_with(|| Box::new([R::EMPTY; CELLS]));
                     each_fragment(self.fine, origin, facet, coverage, |cell, at, key| {
                         let front = (self.front)(facet, at);

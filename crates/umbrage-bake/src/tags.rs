@@ -1,9 +1,11 @@
+use crate::Caster;
+use crate::masks::Masks;
 use crate::pass1::Pass;
 use glam::UVec2;
 use rayon::prelude::*;
 use umbrage_depth::{Reduction, TagMap};
 use umbrage_plane::{Facet, TexelRect, View};
-use umbrage_raster::{BIN, Bins, Cull, Triangle};
+use umbrage_raster::{BIN, Bins, Cull};
 
 /// The nearest key and its object; of several objects at one key the smallest id, so that no order shows (V54).
 struct Nearest;
@@ -20,10 +22,12 @@ impl Reduction for Nearest {
 }
 
 /// Pass 1 of the baseline by object tags: the id of the nearest object of each texel (Wang & Molnar 1994; WM94-16).
-pub fn bake_tags(view: &View, triangles: impl IntoIterator<Item = Triangle>) -> TagMap {
+pub fn bake_tags<'a>(view: &View, casters: impl IntoIterator<Item: Into<Caster<'a>>>) -> TagMap {
+    let mut masks = Masks::new(view);
+    let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
     let bins = Bins::new(view, TexelRect::of_size(view.size()), Cull::None, triangles);
     let grid = bins.tiles();
-    let pass = Pass { view, fine: view, rule: &Nearest, front: |_: &Facet, _| true };
+    let pass = Pass { view, fine: view, rule: &Nearest, masks: &masks, front: |_: &Facet, _| true };
     let tiles: Vec<_> = (0..grid.x * grid.y)
         .into_par_iter()
         .map(|index| pass.cells(&bins, UVec2::new(index % grid.x, index / grid.x)).0)

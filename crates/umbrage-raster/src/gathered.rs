@@ -68,7 +68,7 @@ impl Bins {
 
     /// What is nearest all over a region (in 1/256 texel), where its corners decide that: then no sample in it needs to be asked.
     pub fn seen(&self, region: TexelRect) -> Seen {
-        self.gathered(region).seen(region)
+        self.gathered(region).seen(region, |_| true)
     }
 }
 
@@ -83,8 +83,8 @@ impl Gathered<'_> {
         self.outlines.is_empty()
     }
 
-    /// [`Bins::seen`] of a part of what was gathered.
-    pub fn seen(&self, region: TexelRect) -> Seen {
+    /// [`Bins::seen`] of a part of what was gathered, where a facet that covers the part counts as doing so only if it `fills` what it covers.
+    pub fn seen(&self, region: TexelRect, fills: impl Fn(&Facet) -> bool) -> Seen {
         let mut asked = Vec::with_capacity(MOST_ASKED);
         for outline in self.outlines.iter().filter(|outline| outline.touches(region)) {
             if asked.len() == MOST_ASKED {
@@ -105,8 +105,8 @@ impl Gathered<'_> {
                 continue;
             }
             let (piece, corner) = self.bins.piece(outline.piece);
-            if corners.iter().all(|at| holds(corner, *at)) {
-                let facet = piece.facet();
+            let facet = piece.facet();
+            if corners.iter().all(|at| holds(corner, *at)) && fills(&facet) {
                 let own = keys(&facet);
                 if nearest.is_none_or(|(_, keys)| own[0].total_cmp(&keys[0]).is_lt()) {
                     nearest = Some((facet, own));

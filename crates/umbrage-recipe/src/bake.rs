@@ -7,17 +7,17 @@ use umbrage_bake::{
 };
 use umbrage_depth::{BackFace, DepthRule, First, Map, Second, Tiled};
 use umbrage_plane::View;
-use umbrage_raster::{Cull, Stats, Triangle};
+use umbrage_raster::{Cull, Stats};
 
-/// The triangles of one moment.
-pub(crate) type Moment<'a> = Box<dyn Iterator<Item = Caster> + 'a>;
+/// The casters of one moment, whose masks live for `'m`.
+pub(crate) type Moment<'a, 'm> = Box<dyn Iterator<Item = Caster<'m>> + 'a>;
 
 impl Values {
     /// `moments` are at evenly spread times: deep maps hold their mean, and of rules that keep one surface each texel sees one of them.
-    pub fn bake(&self, view: &View, moments: &mut dyn Iterator<Item = Moment<'_>>) -> (Map, Stats) {
+    pub fn bake(&self, view: &View, moments: &mut dyn Iterator<Item = Moment<'_, '_>>) -> (Map, Stats) {
         if self.rule == Rule::Facets {
             // Over an exposure, the first moment's: what moves is for a mean of maps.
-            let casters = moments.next().into_iter().flatten().map(|caster| caster.triangle);
+            let casters = moments.next().into_iter().flatten();
             let refinement = self.refinement(view.size().max_element());
             let baked = match refinement.fine {
                 1 => bake_facets(view, casters, &First, Cull::None),
@@ -48,33 +48,24 @@ impl Values {
     }
 
     /// One surface per texel.
-    fn flat(&self, view: &View, casters: Moment<'_>) -> Baked {
+    fn flat(&self, view: &View, casters: Moment<'_, '_>) -> Baked {
         if self.rule == Rule::Normals {
             return bake_by_normals(view, casters, &BackFace);
         }
-        let triangles = casters.map(|caster| caster.triangle);
         match self.rule {
-            Rule::First | Rule::Deep | Rule::Normals | Rule::Facets => {
-                self.sampled(view, triangles, &First, Cull::None)
-            }
-            Rule::Second => self.sampled(view, triangles, &Second, Cull::None),
-            Rule::BackFace => self.sampled(view, triangles, &BackFace, Cull::Front),
-            Rule::Midpoint => self.sampled(view, triangles, &self.midpoint, Cull::None),
+            Rule::First | Rule::Deep | Rule::Normals | Rule::Facets => self.sampled(view, casters, &First, Cull::None),
+            Rule::Second => self.sampled(view, casters, &Second, Cull::None),
+            Rule::BackFace => self.sampled(view, casters, &BackFace, Cull::Front),
+            Rule::Midpoint => self.sampled(view, casters, &self.midpoint, Cull::None),
         }
     }
 
     /// As many samples per texel as are asked for, one where so many do not fit.
-    fn sampled<R: DepthRule>(
-        &self,
-        view: &View,
-        triangles: impl Iterator<Item = Triangle>,
-        rule: &R,
-        cull: Cull,
-    ) -> Baked {
+    fn sampled<R: DepthRule>(&self, view: &View, casters: Moment<'_, '_>, rule: &R, cull: Cull) -> Baked {
         let axis = self.sub_samples.unwrap_or(1);
         if axis > 1 && view.with_size(view.size().saturating_mul([axis; 2].into())).is_ok() {
-            return bake_multi(view, triangles, rule, cull, axis).expect("as many samples as fit");
+            return bake_multi(view, casters, rule, cull, axis).expect("as many samples as fit");
         }
-        bake(view, triangles, rule, cull)
+        bake(view, casters, rule, cull)
     }
 }

@@ -9,7 +9,7 @@ use umbrage_bake::Caster;
 use umbrage_depth::{DepthMap, Map, Storage};
 use umbrage_plane::View;
 use umbrage_plane::glam::{DVec3, Vec3};
-use umbrage_raster::Stats;
+use umbrage_raster::{Stats, Triangle};
 use umbrage_shadow::{Bounded, Mean, Shadow, Through};
 
 /// Cosine of the half-angle beyond which a spot light gets several views: 70°.
@@ -121,14 +121,14 @@ impl Recipe {
     /// # Errors
     /// When no view, or several for another recipe than `auto`, are given, or several for a light with a size; when `window=fitted` knows no receivers; when no view can stand at a point of the light;
     /// and when views around one light do not belong together.
-    pub fn shadow_of<I>(
+    pub fn shadow_of<'a, I>(
         &self,
         views: &[View],
         with: &LightUse<'_>,
         mut casters: impl FnMut(&View, u32) -> I,
     ) -> Result<LightShadow, RecipeError>
     where
-        I: IntoIterator<Item: Into<Caster>>,
+        I: IntoIterator<Item: Into<Caster<'a>>>,
     {
         let Values { window, light, .. } = self.values;
         let auto = self.preset == PresetName::Auto;
@@ -223,22 +223,33 @@ impl Made<'_> {
     }
 
     /// The default over the maps of several views of one moment.
-    fn over<I>(&mut self, views: &[View], mut casters: impl FnMut(&View) -> I) -> Result<Box<dyn Shadow>, RecipeError>
+    fn over<'a, I>(
+        &mut self,
+        views: &[View],
+        mut casters: impl FnMut(&View) -> I,
+    ) -> Result<Box<dyn Shadow>, RecipeError>
     where
-        I: IntoIterator<Item: Into<Caster>>,
+        I: IntoIterator<Item: Into<Caster<'a>>>,
     {
         let passing = Cell::new(false);
         let mut pass = |made: &mut Self, recipe: &Recipe, transparent: bool| {
             let mut maps = Vec::new();
             for view in views {
-                let wanted = |caster: &Caster| {
+                let left_out = Cell::new(0);
+                // What is left out stays as a triangle of no area, so that masks are asked of the triangles that they know.
+                let wanted = |caster: Caster<'a>| {
                     let passes = caster.passes.max(Vec3::ZERO) != Vec3::ZERO;
                     passing.set(passing.get() || passes);
-                    passes == transparent
+                    if passes == transparent {
+                        return caster;
+                    }
+                    left_out.set(left_out.get() + 1);
+                    Caster::from(Triangle { corners: [DVec3::ZERO; 3], ..caster.triangle })
                 };
-                let (map, stats) =
-                    recipe.bake_counted(view, [casters(view).into_iter().map(Into::into).filter(wanted)]);
-                made.stats += stats;
+                let casters = casters(view).into_iter().map(Into::into).map(wanted);
+                let (map, stats) = recipe.bake_counted(view, [casters]);
+                let left_out = left_out.get();
+                made.stats += Stats { given: stats.given - left_out, zero_area: stats.zero_area - left_out, ..stats };
                 maps.push(made.kept(map));
             }
             around(recipe.values.dual, maps)
@@ -255,7 +266,12 @@ impl Made<'_> {
 
 /// How many points a light of a size is taken for: one for every texel of its widest penumbra, which is that of the nearest caster on the farthest
 /// receiver.
-fn points_of(view: &View, radius: f32, casters: impl Iterator<Item = Caster>, receivers: Option<&[DVec3]>) -> u32 {
+fn points_of<'a>(
+    view: &View,
+    radius: f32,
+    casters: impl Iterator<Item = Caster<'a>>,
+    receivers: Option<&[DVec3]>,
+) -> u32 {
     let zeta = |at: &DVec3| -view.world_to_eye().transform_point3(*at).z;
     let (mut nearest, mut farthest) = (f64::INFINITY, f64::NEG_INFINITY);
     for corner in casters.flat_map(|caster| caster.triangle.corners) {

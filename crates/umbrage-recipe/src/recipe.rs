@@ -104,7 +104,8 @@ impl Recipe {
         }
     }
 
-    /// Pass 1: the map that this recipe wants of a light's view, from triangles each with what it knows of opacity, colour and normals.
+    /// Pass 1: the map that this recipe wants of a light's view, from triangles each with what it knows of opacity, colour, normals and holes.
+    /// A caster's [mask](umbrage_bake::Caster::mask) is asked whatever the recipe stores.
     ///
     /// ```
     /// use glam::{DVec3, UVec2, Vec3};
@@ -122,27 +123,27 @@ impl Recipe {
     /// assert_eq!(shadow.fraction(&SurfacePoint::at(Vec3::ZERO, Vec3::Z), Key::new(0, 0, 0)), 1.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn bake(&self, view: &View, casters: impl IntoIterator<Item: Into<Caster>>) -> Map {
+    pub fn bake<'m>(&self, view: &View, casters: impl IntoIterator<Item: Into<Caster<'m>>>) -> Map {
         self.bake_moments(view, [casters])
     }
 
     /// The same over an exposure, `moments` being the triangles at evenly spread times: deep maps hold the mean of them; of maps of one
     /// surface each texel sees one of them. An empty map of none.
-    pub fn bake_moments<M>(&self, view: &View, moments: impl IntoIterator<Item = M>) -> Map
+    pub fn bake_moments<'m, M>(&self, view: &View, moments: impl IntoIterator<Item = M>) -> Map
     where
-        M: IntoIterator<Item: Into<Caster>>,
+        M: IntoIterator<Item: Into<Caster<'m>>>,
     {
         self.bake_counted(view, moments).0
     }
 
     /// [`Recipe::bake_moments`], and what became of the triangles of all moments: how many were skipped, lay outside the view, or
     /// lost a part, and with it its shadow, for standing too near to the light. Its `Display` is one line for people.
-    pub fn bake_counted<M>(&self, view: &View, moments: impl IntoIterator<Item = M>) -> (Map, Stats)
+    pub fn bake_counted<'m, M>(&self, view: &View, moments: impl IntoIterator<Item = M>) -> (Map, Stats)
     where
-        M: IntoIterator<Item: Into<Caster>>,
+        M: IntoIterator<Item: Into<Caster<'m>>>,
     {
         // Whatever triangles come as, all rules over them are compiled once, here.
-        let casters = |moment: M| -> Moment<'_> { Box::new(moment.into_iter().map(Into::into)) };
+        let casters = |moment: M| -> Moment<'_, 'm> { Box::new(moment.into_iter().map(Into::into)) };
         self.values.bake(view, &mut moments.into_iter().map(casters))
     }
 

@@ -1,7 +1,7 @@
 //! What a recipe bakes, and over which maps it may be put.
 
-use glam::{DVec3, UVec2, Vec3};
-use umbrage_bake::Caster;
+use glam::{DVec3, IVec2, UVec2, Vec3};
+use umbrage_bake::{Caster, MaskPlace};
 use umbrage_depth::{DepthMap, Map, Raw, Storage, Stored};
 use umbrage_plane::{SpotView, SurfacePoint, View};
 use umbrage_raster::Triangle;
@@ -133,6 +133,20 @@ fn casters_that_let_light_pass_are_kept_in_a_map_of_their_own() {
     // Two faces of the board, one after the other.
     assert!(passes[0].abs_diff_eq(Vec3::new(0.25, 0.0625, 0.0), 0.02), "{}", passes[0]);
     assert_eq!((passes[1], dark[1]), (Vec3::ONE, 0.0));
+    // Every triangle is counted once, and masks are asked of the triangles that they know.
+    assert_eq!((light.stats.given, light.stats.zero_area), (8, 0));
+    let floor = |at: &MaskPlace| {
+        assert!((4..8).contains(&at.triangle) && at.object == 1, "{at:?}");
+        true
+    };
+    let masked = |view: &View, moment: u32| {
+        glass(view, moment)
+            .into_iter()
+            .map(|one| if one.triangle.object == 1 { one.with_mask(&floor) } else { one })
+            .collect::<Vec<_>>()
+    };
+    let same = recipe("auto").shadow_of(&[lamp()], &LightUse::default(), masked).unwrap();
+    assert_eq!(at(&*same.shadow, 5.1, -2.0), 1.0);
     // Under the floor, which is opaque.
     assert_eq!(at(&*light.shadow, 5.1, -2.0), 1.0);
 }
@@ -236,7 +250,36 @@ fn deep_recipes_take_opacity_and_colour_and_normals_take_normals() {
     let by_normals = recipe("wang-molnar94,stored=normals");
     let turned = boards().into_iter().map(|triangle| Caster::from(triangle).with_normals([Vec3::NEG_Z; 3]));
     let map = by_normals.bake(&lamp(), turned);
-    assert_eq!(map.depth(glam::IVec2::splat(32)), 15.0, "all face away, so that the nearest counts");
+    assert_eq!(map.depth(IVec2::splat(32)), 15.0, "all face away, so that the nearest counts");
+}
+
+/// The board's right half is cut out, whatever is stored: the texel there sees what it would see without the board.
+#[test]
+fn every_recipe_sees_through_what_a_mask_leaves_out() {
+    let boards = boards();
+    let mask = |at: &MaskPlace| {
+        let [a, b, c] = boards[at.triangle as usize].corners;
+        a.x * at.weights.x + b.x * at.weights.y + c.x * at.weights.z < 0.0
+    };
+    let of = |masked: bool| {
+        boards.iter().map(move |triangle| (triangle, masked && triangle.object == 0)).map(|(triangle, masked)| {
+            let caster = Caster::from(*triangle);
+            if masked { caster.with_mask(&mask) } else { caster }
+        })
+    };
+    let bare = || boards.iter().filter(|triangle| triangle.object == 1).copied();
+    let presets = PresetName::ALL.map(|preset| preset.name().to_owned());
+    let stored = ["first", "second", "back-face", "midpoint", "deep", "normals"]
+        .map(|stored| format!("reeves87,stored={stored}"));
+    let finer = ["woo92,same=surface,sub-samples=2", "reeves87,stored=deep,sub-samples=2"].map(str::to_owned);
+    for text in presets.iter().chain(&stored).chain(&finer) {
+        let recipe = recipe(text);
+        let [masked, whole] = [true, false].map(|masked| recipe.bake(&lamp(), of(masked)));
+        let without = recipe.bake(&lamp(), bare());
+        let [left, right] = [25, 38].map(|x| IVec2::new(x, 32));
+        assert_eq!((masked.depth(left), masked.depth(right)), (whole.depth(left), without.depth(right)), "{text}");
+        assert_ne!(whole.depth(right), without.depth(right), "{text}");
+    }
 }
 
 #[test]

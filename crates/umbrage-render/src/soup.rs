@@ -28,7 +28,7 @@ impl Piece<'_> {
         Triangle { corners: self.mesh.triangles[local].map(world), object: self.object, sheet: self.sheet }
     }
 
-    fn caster(&self, origin: DVec3, local: usize) -> Caster {
+    fn caster(&self, origin: DVec3, local: usize) -> Caster<'static> {
         let normals = self.mesh.triangles[local].map(|vertex| self.mesh.normals[vertex as usize]);
         Caster::from(self.triangle(origin, local)).with_passes(self.passes).with_normals(normals)
     }
@@ -89,14 +89,14 @@ impl<'a> Soup<'a> {
     }
 
     /// The same triangles, each with what passes its object and the shading normals of its mesh.
-    pub fn casting(&self) -> impl Iterator<Item = Caster> + '_ {
+    pub fn casting(&self) -> impl Iterator<Item = Caster<'static>> + '_ {
         self.pieces
             .iter()
             .flat_map(|piece| (0..piece.mesh.triangles.len()).map(|local| piece.caster(self.origin, local)))
     }
 
     /// As [`casting`](Self::casting), for who keeps no soup.
-    pub fn into_casting(self) -> impl Iterator<Item = Caster> + 'a {
+    pub fn into_casting(self) -> impl Iterator<Item = Caster<'static>> + 'a {
         let (origin, pieces) = (self.origin, self.pieces.into_iter());
         pieces.flat_map(move |piece| (0..piece.mesh.triangles.len()).map(move |local| piece.caster(origin, local)))
     }

@@ -1,18 +1,19 @@
 //! Where the first surface changes between neighbouring samples.
 
+use super::casters::Casters;
 use super::nearest::{SUBTEXELS, Samples, place_of, points, texels};
 use super::surface::Surface;
 use glam::IVec2;
 use std::ops::Range;
 use umbrage_depth::FacetBlock;
 use umbrage_plane::TexelRect;
-use umbrage_raster::{BIN, Gathered, Lines};
+use umbrage_raster::{BIN, Lines};
 
 const DIRECTIONS: [Lines; 2] = [Lines::Rows, Lines::Columns];
 
 /// The samples of a tile, and what is seen on the links between them.
 pub(super) struct Links<'a> {
-    pub gathered: &'a Gathered<'a>,
+    pub casters: &'a Casters<'a>,
     pub surface: &'a Surface<'a>,
     pub samples: &'a Samples,
     pub region: TexelRect,
@@ -164,13 +165,14 @@ impl Links<'_> {
             !along.is_empty()
                 && across.into_iter().any(|line| way.words(line, along.clone()).any(|(_, begins)| begins != 0))
         };
-        self.gathered.spans(
+        self.casters.gathered.spans(
             self.region,
             lines,
             grid.step,
             wanted,
             #[inline(always)]
             |_, facet, across, span| {
+                let masked = self.casters.masks.of(facet);
                 let (along, line) = (reached(span.clone()), ((across - first.y) >> step) as usize);
                 // No link begins on the line beyond the tile.
                 if along.is_empty() || line >= side {
@@ -197,10 +199,20 @@ impl Links<'_> {
                         if ends[0] >= *farthest && ends[1] >= *farthest {
                             continue;
                         }
+                        let keys = &mut keys[own * slots..][covered.clone()];
+                        if let Some(masked) = masked {
+                            let place = |slot: i32| texels(turned(IVec2::new(start + gap * slot, across)));
+                            for (nearest, slot) in keys.iter_mut().zip(covered.start as i32..) {
+                                let key = key + change * f64::from(slot);
+                                if key < *nearest && self.casters.masks.is_there(masked, facet, place(slot)) {
+                                    *nearest = key;
+                                }
+                            }
+                            continue;
+                        }
                         if covered.len() == slots && ends[0] < *farthest && ends[1] < *farthest {
                             *farthest = ends[0].max(ends[1]);
                         }
-                        let keys = &mut keys[own * slots..][covered.clone()];
                         for (nearest, slot) in keys.iter_mut().zip(covered.start as i32..) {
                             let key = key + change * f64::from(slot);
                             *nearest = if key < *nearest { key } else { *nearest };

@@ -1,6 +1,7 @@
 //! Pass 1 of maps that keep facets.
 
 mod budget;
+mod casters;
 mod links;
 mod merged;
 mod nearest;
@@ -10,16 +11,19 @@ mod surface;
 
 pub use refinement::Refinement;
 
+use crate::Caster;
+use crate::masks::Masks;
 use crate::pass1::Pass;
 use budget::Level;
 use glam::{IVec2, UVec2};
 use merged::merged;
 use rayon::prelude::*;
+use refined::Refined;
 use std::collections::HashMap;
 use std::sync::Arc;
 use umbrage_depth::{FacetCells, FacetDepths, FacetMap, FacetRule, FacetTile, First, NO_FACET, Stored};
 use umbrage_plane::{Facet, Facing, Sampling, TexelRect, View};
-use umbrage_raster::{BIN, Bins, Cull, Stats, Triangle, each_fragment};
+use umbrage_raster::{BIN, Bins, Cull, Stats, each_fragment};
 
 /// Cells of a tile.
 const CELLS: usize = (BIN * BIN) as usize;
@@ -35,14 +39,16 @@ pub struct BakedFacets {
 
 /// [`bake`](crate::bake), keeping which facet each texel sees: the same depths, bit for bit, in less room where facets are larger than a
 /// few texels. Of facets at one key the first triangle's.
-pub fn bake_facets<R: FacetRule>(
+pub fn bake_facets<'a, R: FacetRule>(
     view: &View,
-    triangles: impl IntoIterator<Item = Triangle>,
+    casters: impl IntoIterator<Item: Into<Caster<'a>>>,
     rule: &R,
     cull: Cull,
 ) -> BakedFacets {
+    let mut masks = Masks::new(view);
+    let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
     let bins = Bins::new(view, TexelRect::of_size(view.size()), cull, triangles);
-    let pass = Pass { view, fine: view, rule, front: |facet: &Facet, _| facet.facing == Facing::Front };
+    let pass = Pass { view, fine: view, rule, masks: &masks, front: |facet: &Facet, _| facet.facing == Facing::Front };
     let stored = match (rule.stored(), cull) {
         (Stored::First, Cull::Front) => Stored::BackFace,
         (stored, _) => stored,
@@ -53,7 +59,7 @@ pub fn bake_facets<R: FacetRule>(
         let origin = (tile * BIN).as_ivec2();
         let mut texels = vec![NO_FACET; CELLS];
         let (mut planes, mut index) = (Vec::new(), HashMap::new());
-        bins.tile(tile, |facet, coverage| {
+        masks.tile(&bins, tile, |facet, coverage| {
             each_fragment(view, origin, facet, coverage, |cell, _, key| {
                 if texels[cell] == NO_FACET && key == rule.key(&cells[cell]) {
                     texels[cell] = *index.entry(facet.triangle).or_insert_with(|| {
@@ -73,26 +79,30 @@ pub fn bake_facets<R: FacetRule>(
 ///
 /// A texel is refined when one of its samples, or the first sample beyond its right or lower side, lies off its own plane by more than
 /// the tolerance, as far as ten bytes for each of the map's texels go round, or as 640 KB do: beyond them, the tiles that take most let samples share planes that are nearly their own, then refine
-/// only edges that are worth more texels, and at last none. A link is kept between neighbouring samples of refined texels whose facets' planes do not meet there.
+/// only edges that are worth more texels, and at last none. A link is kept between neighbouring samples of refined
+/// texels whose facets' planes do not meet there. A caster's [mask](crate::Mask) is asked at every sample and at every slot of a link:
+/// its holes are edges like any others.
 ///
 /// [`DualPlane`]: https://docs.rs/umbrage-shadow
 ///
 /// # Panics
 /// When `fine` is not 2, 4 or 8, or `slots` is not a power of two from 2 to 64/`fine`.
-pub fn bake_refined(
+pub fn bake_refined<'a>(
     view: &View,
-    triangles: impl IntoIterator<Item = Triangle>,
+    casters: impl IntoIterator<Item: Into<Caster<'a>>>,
     refinement: &Refinement,
 ) -> BakedFacets {
     let Refinement { fine, slots, .. } = *refinement;
     assert!(matches!(fine, 2 | 4 | 8), "{fine} samples along a texel's side");
     assert!(slots > 1 && slots.is_power_of_two() && slots * fine <= 64, "{slots} slots with {fine} samples");
     let view = &view.with_sampling(Sampling::Centre);
+    let mut masks = Masks::new(view);
+    let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
     let bins = Bins::for_spans(view, TexelRect::of_size(view.size()), Cull::None, triangles);
     let depths = FacetDepths::of(view);
     let kept = |tile: UVec2, level: Level| {
-        let refinement = refinement.with_tolerance(refinement.tolerance * level.tolerance);
-        let found = refined::tile(view, &bins, tile, &refinement, level.parts)?;
+        let refinement = &refinement.with_tolerance(refinement.tolerance * level.tolerance);
+        let found = Refined { view, bins: &bins, masks: &masks, refinement }.tile(tile, level.parts)?;
         let cells = found.cells();
         if !level.merged {
             return pack(view, &depths, tile, fine, &cells);

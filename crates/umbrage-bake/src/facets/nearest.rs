@@ -1,10 +1,11 @@
 //! The nearest facets at the points of a grid.
 
+use super::casters::Casters;
 use glam::{DVec2, IVec2};
 use std::ops::Range;
 use umbrage_depth::NO_FACET;
 use umbrage_plane::{Affine, TexelRect};
-use umbrage_raster::{Gathered, Lines};
+use umbrage_raster::Lines;
 
 /// 1/256 texel: what corners are snapped to, and all places here are multiples of.
 pub(super) const SUBTEXELS: i32 = 256;
@@ -74,10 +75,33 @@ impl Nearest {
         }
         any != 0
     }
+
+    /// The same of a plane with holes: it is offered to those points alone, of all that it is nearest at, at which it is `there`.
+    #[cold]
+    fn offer_masked(
+        &mut self,
+        row: usize,
+        points: Range<usize>,
+        key: f64,
+        dx: f64,
+        facet: u32,
+        there: impl Fn(usize) -> bool,
+    ) -> bool {
+        let first = row * self.side;
+        let mut any = false;
+        for point in points {
+            let key = key + dx * f64::from(point as i32);
+            if key < self.keys[first + point] && there(point) {
+                (self.keys[first + point], self.facets[first + point]) = (key, facet);
+                any = true;
+            }
+        }
+        any
+    }
 }
 
-/// A square grid of points in square parts, each of which may be left out. Neighbouring parts share points: those that lie just beyond a part, to the right and
-/// downward, count for it as well.
+/// A square grid of points in square parts, each of which may be left out. Neighbouring parts may share points: those that lie just
+/// beyond a part, to the right and downward, then count for it as well.
 #[derive(Clone, Copy)]
 pub(super) struct Grid {
     /// The place of the first point, in 1/256 texel, and how far the next is.
@@ -125,7 +149,7 @@ pub(super) struct Samples {
 impl Samples {
     /// Of those parts of a region that are `asked`; parts come row by row. Planes that are nearest somewhere are added to `planes`.
     pub fn of(
-        gathered: &Gathered<'_>,
+        casters: &Casters<'_>,
         region: TexelRect,
         grid: Grid,
         asked: impl Fn(usize) -> bool,
@@ -145,7 +169,7 @@ impl Samples {
             let covered = points(&(bounds.min.x..bounds.max.x), first.x, shift, all);
             covered.start < covered.end
         };
-        gathered.spans(
+        casters.gathered.spans(
             region,
             Lines::Rows,
             step,
@@ -159,10 +183,18 @@ impl Samples {
                 let row = ((y - first.y) >> shift) as usize;
                 let known = planes.index[number];
                 let index = if known == NO_FACET { planes.planes.len() as u32 } else { known };
-                let key = |first: IVec2| facet.plane.at(texels(IVec2::new(first.x, y)));
+                let masked = casters.masks.of(facet);
                 let dx = facet.plane.dx * (f64::from(step) / f64::from(SUBTEXELS));
+                let offer = |nearest: &mut Nearest, row: usize, points: Range<usize>| {
+                    let first = IVec2::new(nearest.first.x, y);
+                    let key = facet.plane.at(texels(first));
+                    let Some(masked) = masked else { return nearest.offer(row, points, key, dx, index) };
+                    let place = |point: usize| texels(first + IVec2::X * (step * point as i32));
+                    let there = |point: usize| casters.masks.is_there(masked, facet, place(point));
+                    nearest.offer_masked(row, points, key, dx, index, there)
+                };
                 let nearer = if let [Some(whole)] = parts.as_mut_slice() {
-                    whole.offer(row, points, key(whole.first), dx, index)
+                    offer(whole, row, points)
                 } else {
                     let rows = grid.first_part(row)..=grid.part(row).min(grid.parts - 1);
                     let columns = grid.first_part(points.start)..=grid.part(points.end - 1).min(grid.parts - 1);
@@ -171,7 +203,7 @@ impl Samples {
                         let Some(nearest) = &mut parts[part_row * grid.parts + column] else { continue };
                         let (above, left) = (part_row << grid.shift, column << grid.shift);
                         let own = points.start.max(left) - left..points.end.min(left + nearest.side) - left;
-                        nearer |= nearest.offer(row - above, own, key(nearest.first), dx, index);
+                        nearer |= offer(nearest, row - above, own);
                     }
                     nearer
                 };

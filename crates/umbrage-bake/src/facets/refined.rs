@@ -1,9 +1,11 @@
 //! One tile of a refined map: texels, samples, and where the first surface changes between them.
 
+use super::casters::Casters;
 use super::links::Links;
 use super::nearest::{Grid, Planes, SUBTEXELS, Samples, place_of, texels};
 use super::refinement::Refinement;
 use super::surface::Surface;
+use crate::masks::Masks;
 use glam::{IVec2, UVec2};
 use umbrage_depth::{FacetBlock, FacetCells, NO_FACET};
 use umbrage_plane::{Affine, TexelRect, View};
@@ -40,47 +42,58 @@ pub(super) enum Parts {
     Texels,
 }
 
-/// A tile's texels, samples and links; `None` when nothing reaches it.
-pub(super) fn tile(view: &View, bins: &Bins, tile: UVec2, refinement: &Refinement, parts: Parts) -> Option<Found> {
-    if bins.is_empty_tile(tile) {
-        return None;
+/// What a refined map is made of.
+pub(super) struct Refined<'a> {
+    pub view: &'a View,
+    pub bins: &'a Bins,
+    pub masks: &'a Masks<'a>,
+    pub refinement: &'a Refinement,
+}
+
+impl Refined<'_> {
+    /// A tile's texels, samples and links; `None` when nothing reaches it.
+    pub fn tile(&self, tile: UVec2, parts: Parts) -> Option<Found> {
+        let Self { view, bins, masks, refinement } = *self;
+        if bins.is_empty_tile(tile) {
+            return None;
+        }
+        let origin = (tile * BIN).as_ivec2();
+        let own = TexelRect::new(origin * SUBTEXELS, (origin + BIN as i32) * SUBTEXELS);
+        let whole = TexelRect::new(own.min, own.max + SUBTEXELS / refinement.fine as i32);
+        let casters = Casters { gathered: bins.gathered(whole), masks };
+        if let Seen::One(facet) = casters.seen(whole) {
+            let on_map = |texel: usize| (origin + place_of(texel, SIDE)).cmplt(view.size().as_ivec2()).all();
+            let texels = (0..CELLS).map(|texel| if on_map(texel) { 0 } else { NO_FACET }).collect();
+            return Some(Found { planes: vec![facet.plane], texels, blocks: Vec::new() });
+        }
+        let mut planes = Planes::of(casters.gathered.len());
+        let first = own.min + SUBTEXELS / 2;
+        let centres = Grid { first, step: SUBTEXELS, parts: 1, shift: SIDE.ilog2(), beyond: 0 };
+        let texels = Samples::of(&casters, own, centres, |_| true, &mut planes);
+        let texels = texels.part(0).map_or_else(Vec::new, |(facets, _)| facets.to_vec());
+        let mut blocks = Vec::new();
+        if parts == Parts::All {
+            let (step, fine) = (SUBTEXELS / refinement.fine as i32, refinement.fine as usize);
+            let side = if bins.reaching(tile) > MOST_FOR_PARTS { SIDE } else { PART };
+            // One sample more to the right and downward: what lies just beyond a texel belongs to the question whether it is refined.
+            let grid =
+                Grid { first: own.min + step / 2, step, parts: SIDE / side, shift: (side * fine).ilog2(), beyond: 1 };
+            let several = |part: usize| {
+                let min = own.min + SUBTEXELS * side as i32 * place_of(part, grid.parts);
+                casters.seen(TexelRect::new(min, min + SUBTEXELS * side as i32 + step)) == Seen::Several
+            };
+            let samples = Samples::of(&casters, whole, grid, several, &mut planes);
+            let surface = Surface { view, planes: &planes.planes, tolerance: refinement.tolerance };
+            let refine = Refine { surface: &surface, samples: &samples, texels: &texels, origin, fine };
+            (0..grid.parts.pow(2)).for_each(|part| refine.part(part, &mut blocks));
+            blocks.sort_unstable_by_key(|block: &FacetBlock| block.texel);
+            let slots = refinement.slots as i32;
+            let links = Links { casters: &casters, surface: &surface, samples: &samples, region: whole, slots, fine };
+            links.fill(&mut blocks);
+        }
+        let nothing = blocks.is_empty() && texels.iter().all(|facet| *facet == NO_FACET);
+        (!nothing).then_some(Found { planes: planes.planes, texels, blocks })
     }
-    let origin = (tile * BIN).as_ivec2();
-    let own = TexelRect::new(origin * SUBTEXELS, (origin + BIN as i32) * SUBTEXELS);
-    let whole = TexelRect::new(own.min, own.max + SUBTEXELS / refinement.fine as i32);
-    let gathered = bins.gathered(whole);
-    if let Seen::One(facet) = gathered.seen(whole) {
-        let on_map = |texel: usize| (origin + place_of(texel, SIDE)).cmplt(view.size().as_ivec2()).all();
-        let texels = (0..CELLS).map(|texel| if on_map(texel) { 0 } else { NO_FACET }).collect();
-        return Some(Found { planes: vec![facet.plane], texels, blocks: Vec::new() });
-    }
-    let mut planes = Planes::of(gathered.len());
-    let first = own.min + SUBTEXELS / 2;
-    let centres = Grid { first, step: SUBTEXELS, parts: 1, shift: SIDE.ilog2(), beyond: 0 };
-    let texels = Samples::of(&gathered, own, centres, |_| true, &mut planes);
-    let texels = texels.part(0).map_or_else(Vec::new, |(facets, _)| facets.to_vec());
-    let mut blocks = Vec::new();
-    if parts == Parts::All {
-        let (step, fine) = (SUBTEXELS / refinement.fine as i32, refinement.fine as usize);
-        let side = if bins.reaching(tile) > MOST_FOR_PARTS { SIDE } else { PART };
-        // One sample more to the right and downward: what lies just beyond a texel belongs to the question whether it is refined.
-        let grid =
-            Grid { first: own.min + step / 2, step, parts: SIDE / side, shift: (side * fine).ilog2(), beyond: 1 };
-        let several = |part: usize| {
-            let min = own.min + SUBTEXELS * side as i32 * place_of(part, grid.parts);
-            gathered.seen(TexelRect::new(min, min + SUBTEXELS * side as i32 + step)) == Seen::Several
-        };
-        let samples = Samples::of(&gathered, whole, grid, several, &mut planes);
-        let surface = Surface { view, planes: &planes.planes, tolerance: refinement.tolerance };
-        let refine = Refine { surface: &surface, samples: &samples, texels: &texels, origin, fine };
-        (0..grid.parts.pow(2)).for_each(|part| refine.part(part, &mut blocks));
-        blocks.sort_unstable_by_key(|block: &FacetBlock| block.texel);
-        let slots = refinement.slots as i32;
-        let links = Links { gathered: &gathered, surface: &surface, samples: &samples, region: whole, slots, fine };
-        links.fill(&mut blocks);
-    }
-    let nothing = blocks.is_empty() && texels.iter().all(|facet| *facet == NO_FACET);
-    (!nothing).then_some(Found { planes: planes.planes, texels, blocks })
 }
 
 /// A tile's texels and samples.

@@ -18,7 +18,7 @@ fn flat(height: f32, left: f32, object: u32) -> [Triangle; 2] {
 }
 
 /// A square sheet at a height that lets `passes` through, from x = `left` to 16.
-fn sheet(height: f32, left: f32, passes: Vec3) -> [Caster; 2] {
+fn sheet(height: f32, left: f32, passes: Vec3) -> [Caster<'static>; 2] {
     flat(height, left, 0).map(|triangle| Caster::from(triangle).with_passes(passes))
 }
 

@@ -3,7 +3,7 @@
 use crate::pass1::{triangles, views};
 use crate::shapes::{ball, cuboid, quad};
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
-use umbrage_bake::{Refinement, bake, bake_facets, bake_refined};
+use umbrage_bake::{Caster, MaskPlace, Refinement, bake, bake_facets, bake_refined};
 use umbrage_depth::{BackFace, DepthMap, FacetMap, FacetRule, FacetSource, First, Second, Tiled};
 use umbrage_plane::{Affine, DepthRange, TexelRect, View};
 use umbrage_raster::{Cull, Triangle};
@@ -97,17 +97,22 @@ fn soup(seed: u64) -> Vec<Triangle> {
     soup
 }
 
+/// Whether anything of a triangle, of which its index is given, is at a place of the world.
+type Holes = dyn Fn(usize, DVec3) -> bool + Sync;
+
 /// A triangle on the map as nobody snapped it.
-struct Seen {
+struct Seen<'a> {
     corners: [DVec2; 3],
     /// `None` where it is edge-on: then it says nothing of use at a sample.
     plane: Option<Affine>,
+    /// Whether anything of it is at a place of the map; `None` where it has no holes.
+    there: Option<Box<dyn Fn(DVec2) -> bool + 'a>>,
 }
 
 /// What a plain test sees at a place of the map: the nearest key, or `None` where an edge is within `margin` texels, so that snapping decides.
-fn nearest(seen: &[Seen], at: DVec2, margin: f64) -> Option<f64> {
+fn nearest(seen: &[Seen<'_>], at: DVec2, margin: f64) -> Option<f64> {
     let mut nearest = f64::INFINITY;
-    for Seen { corners: [a, b, c], plane } in seen {
+    for Seen { corners: [a, b, c], plane, there } in seen {
         let along = |a: DVec2, b: DVec2| {
             let (edge, from) = (b - a, at - a);
             let t = (from.dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
@@ -119,24 +124,51 @@ fn nearest(seen: &[Seen], at: DVec2, margin: f64) -> Option<f64> {
         let side = |a: &DVec2, b: &DVec2| (*b - *a).perp_dot(at - *a);
         let sides = [side(a, b), side(b, c), side(c, a)];
         if sides.iter().all(|side| *side > 0.0) || sides.iter().all(|side| *side < 0.0) {
-            nearest = nearest.min(plane.as_ref()?.at(at));
+            let key = plane.as_ref()?.at(at);
+            if key < nearest {
+                let is_there = there.as_ref().is_none_or(|there| there(at));
+                // The edge of a hole is an edge too.
+                let near = [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y].map(|way| at + way * margin);
+                if there.as_ref().is_some_and(|there| near.iter().any(|near| there(*near) != is_there)) {
+                    return None;
+                }
+                nearest = if is_there { key } else { nearest };
+            }
         }
     }
     Some(nearest)
 }
 
-fn seen(view: &View, triangles: &[Triangle]) -> Vec<Seen> {
-    let one = |triangle: &Triangle| {
+fn seen<'a>(view: &'a View, triangles: &[Triangle], there: Option<&'a Holes>) -> Vec<Seen<'a>> {
+    let one = |(index, triangle): (usize, &Triangle)| {
         let eye = triangle.corners.map(|corner| view.world_to_eye().transform_point3(corner));
         let normal = (eye[1] - eye[0]).cross(eye[2] - eye[0]);
         let plane = view.affine(eye[0], normal).filter(|plane| plane.dx.abs() + plane.dy.abs() < 0.05);
-        Seen { corners: eye.map(|at| view.eye_to_texel(at)), plane }
+        let there = plane.zip(there).map(|(plane, there)| -> Box<dyn Fn(DVec2) -> bool> {
+            Box::new(move |at: DVec2| there(index, view.world_at(at, plane.at(at))))
+        });
+        Seen { corners: eye.map(|at| view.eye_to_texel(at)), plane, there }
     };
-    triangles.iter().map(one).collect()
+    triangles.iter().enumerate().map(one).collect()
 }
 
 #[test]
 fn refined_texels_see_what_a_plain_test_of_each_sample_sees() {
+    let [asked, refined, links] = check_refined(None);
+    assert!(asked > 30_000 && refined > 5000 && links > 500, "{asked} samples, {refined} refined, {links} links");
+}
+
+/// Two triangles of three have holes: where the world is striped.
+#[test]
+fn refined_texels_see_through_holes_what_a_plain_test_of_each_sample_sees() {
+    let stripes =
+        |index: usize, at: DVec3| index.is_multiple_of(3) || (0.25 * (at.x + 0.3 * at.y)).rem_euclid(1.0) < 0.6;
+    let [asked, refined, links] = check_refined(Some(&stripes));
+    assert!(asked > 100_000 && refined > 10_000 && links > 1000, "{asked} samples, {refined} refined, {links} links");
+}
+
+/// How many samples, refined ones and links were found to be right.
+fn check_refined(holes: Option<&Holes>) -> [u32; 3] {
     let (mut asked, mut refined, mut links) = (0, 0, 0);
     for (seed, fine, slots) in [(1, 4, 16), (2, 4, 16), (3, 2, 32), (4, 8, 8), (5, 4, 4)] {
         let soup = soup(seed);
@@ -144,9 +176,19 @@ fn refined_texels_see_what_a_plain_test_of_each_sample_sees() {
         let size = UVec2::new(70, 45) * if fine == 8 { 3 } else { 1 };
         let view = View::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 0.6, 2.0, 60.0, size).unwrap();
         let refinement = Refinement::default().with_fine(fine).with_slots(slots);
-        let map = bake_refined(&view, soup.iter().copied(), &refinement).map;
+        let mask = |at: &MaskPlace| {
+            let corners = soup[at.triangle as usize].corners;
+            assert_eq!(at.object, soup[at.triangle as usize].object);
+            let place = corners[0] * at.weights.x + corners[1] * at.weights.y + corners[2] * at.weights.z;
+            holes.is_none_or(|there| there(at.triangle as usize, place))
+        };
+        let caster = |(index, triangle): (usize, &Triangle)| {
+            let caster = Caster::from(*triangle);
+            if holes.is_some() && !index.is_multiple_of(3) { caster.with_mask(&mask) } else { caster }
+        };
+        let map = bake_refined(&view, soup.iter().enumerate().map(caster), &refinement).map;
         assert!(map.bytes() < size.element_product() as usize * 9, "{} bytes", map.bytes());
-        let seen: Vec<Seen> = seen(&view, &soup);
+        let seen = seen(&view, &soup, holes);
         let edge_on = seen.iter().filter(|seen| seen.plane.is_none()).count();
         assert!(edge_on < 8, "{edge_on} of {} triangles", soup.len());
         let side = f64::from(fine);
@@ -186,12 +228,12 @@ fn refined_texels_see_what_a_plain_test_of_each_sample_sees() {
             }
         }
     }
-    assert!(asked > 30_000 && refined > 5000 && links > 500, "{asked} samples, {refined} refined, {links} links");
+    [asked, refined, links]
 }
 
 /// A link's place against the first of 256 places on the way where the surface is nearer to the other sample's plane. Returns whether that place is
 /// beyond doubt.
-fn check_link(map: &FacetMap, seen: &[Seen], at: IVec2, next: IVec2, crossing: f64, seed: u64) -> bool {
+fn check_link(map: &FacetMap, seen: &[Seen<'_>], at: IVec2, next: IVec2, crossing: f64, seed: u64) -> bool {
     let side = f64::from(map.fine());
     let place = |t: f64| (at.as_dvec2() + 0.5 + next.as_dvec2() * t) / side;
     let (a, b) = (map.sample(at).plane, map.sample(at + next).plane);

@@ -3,6 +3,7 @@
 mod deep;
 mod facets;
 mod hits;
+mod masks;
 mod normals;
 mod pass1;
 mod shapes;

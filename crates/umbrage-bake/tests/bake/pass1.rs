@@ -1,7 +1,7 @@
 //! One depth per texel.
 
 use crate::shapes::{ball, cuboid};
-use glam::{DVec3, IVec2, UVec2, Vec3};
+use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
 use umbrage_bake::bake;
 use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Midpoint, Raw, Second, Stored, Tiled};
 use umbrage_plane::{Facing, Kind, Sampling, SurfacePoint, TexelRect, View};
@@ -38,8 +38,15 @@ pub fn views() -> Vec<View> {
         .collect()
 }
 
-/// One texel at a time: all fragments of the whole map in the order of the triangles, then the rule's answer.
-fn naive<R: DepthRule>(view: &View, triangles: &[Triangle], rule: &R, cull: Cull) -> Raw {
+/// One texel at a time: all fragments of the whole map in the order of the triangles, then the rule's answer. What is not `there`, by the
+/// index of its triangle and the place of a sample in texels, is left out.
+pub fn naive<R: DepthRule>(
+    view: &View,
+    triangles: &[Triangle],
+    rule: &R,
+    cull: Cull,
+    there: impl Fn(u32, DVec2) -> bool,
+) -> Raw {
     let bins = Bins::new(view, TexelRect::of_size(view.size()), cull, triangles.iter().copied());
     let size = view.size();
     let mut cells = vec![R::EMPTY; size.element_product() as usize];
@@ -49,7 +56,8 @@ fn naive<R: DepthRule>(view: &View, triangles: &[Triangle], rule: &R, cull: Cull
                 for texel in TexelRect::of_size(size).texels() {
                     let at = texel - tile * 32;
                     let inside = at.cmpge(IVec2::ZERO).all() && at.cmplt(IVec2::splat(32)).all();
-                    if inside && coverage.rows[at.y as usize] >> at.x & 1 == 1 {
+                    let covered = inside && coverage.rows[at.y as usize] >> at.x & 1 == 1;
+                    if covered && there(facet.triangle, view.sampling().position(texel)) {
                         let cell = &mut cells[(texel.y * size.x as i32 + texel.x) as usize];
                         rule.add(pass, cell, facet.key(view.sampling(), texel), facet.facing == Facing::Front, facet);
                     }
@@ -70,7 +78,7 @@ fn naive<R: DepthRule>(view: &View, triangles: &[Triangle], rule: &R, cull: Cull
 fn law<R: DepthRule>(name: &str, rule: &R, cull: Cull) {
     let triangles = triangles();
     for view in views() {
-        let expected = naive(&view, &triangles, rule, cull);
+        let expected = naive(&view, &triangles, rule, cull, |_, _| true);
         for threads in [1, 2, 7] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let baked = pool.install(|| bake(&view, triangles.iter().copied(), rule, cull));

@@ -149,12 +149,16 @@ fn gathered_facets_answer_for_parts_of_their_region() {
     let mut kinds = [0; 3];
     for part in TexelRect::of_size(UVec2::new(14, 9)).texels().map(|at| region.min + at * 1024) {
         let part = TexelRect::new(part, part + 1024 + 64);
-        assert_eq!(gathered.seen(part), bins.seen(part), "{part:?}");
-        kinds[match gathered.seen(part) {
+        let seen = gathered.seen(part, |_| true);
+        assert_eq!(seen, bins.seen(part), "{part:?}");
+        let kind = match seen {
             Seen::Nothing => 0,
             Seen::One(_) => 1,
             Seen::Several => 2,
-        }] += 1;
+        };
+        kinds[kind] += 1;
+        let full_of_holes = gathered.seen(part, |_| false);
+        assert_eq!(full_of_holes, if kind == 0 { Seen::Nothing } else { Seen::Several }, "{part:?}");
         for lines in [Lines::Rows, Lines::Columns] {
             let mut wanted = Vec::new();
             bins.spans(part, lines, 64, |facet, line, along| wanted.push((facet.triangle, line, along)));

@@ -1,0 +1,34 @@
+//! Casters with holes: who is asked whether anything is there, and of which place.
+
+use glam::{DVec2, DVec3, Vec2};
+
+/// Whether anything of a caster is at a place of it: an alpha test, where true is opaque.
+///
+/// It is asked at samples, in no order, from several threads, and perhaps more than once at one. It must always say the same of the
+/// same place, or the map depends on the order. A panic of it is one of the bake.
+pub type Mask<'a> = &'a (dyn Fn(&MaskPlace) -> bool + Sync);
+
+/// A place of a triangle, of which a [`Mask`] is asked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct MaskPlace {
+    /// Index of the triangle in the order in which they were given to the bake, 0-based; of a bake over several moments among those of its
+    /// own moment.
+    pub triangle: u32,
+    /// Id of the object that it belongs to.
+    pub object: u32,
+    /// The weights of the triangle's corners, in their order: the place in world space is the mean of the corners by these, so that
+    /// perspective is in them. Each is within 0..=1 and they sum to 1, but for rounding; none is NaN. Where snapping leaves a sample just beside its
+    /// triangle they are those of a place on its border, and of a triangle that is edge-on to the view those of some place of it.
+    pub weights: DVec3,
+}
+
+impl MaskPlace {
+    /// The mean of what is known at the corners, in their order, by the [weights](Self::weights): texture coordinates of the place, of those of
+    /// the corners.
+    #[must_use]
+    pub fn mix(&self, corners: [Vec2; 3]) -> DVec2 {
+        let [a, b, c] = corners.map(Vec2::as_dvec2);
+        a * self.weights.x + b * self.weights.y + c * self.weights.z
+    }
+}

@@ -1,0 +1,123 @@
+//! The masks of a bake, and where they are asked.
+
+use crate::rays::{places, ray};
+use crate::{Caster, Mask, MaskPlace};
+use glam::{DVec2, DVec3, IVec2, UVec2};
+use umbrage_plane::{Facet, View};
+use umbrage_raster::{BIN, Bins, Coverage, Triangle};
+
+/// The masks of a bake's casters.
+pub(crate) struct Masks<'a> {
+    /// Its texel positions are what masks are asked at.
+    view: View,
+    masked: Vec<Masked<'a>>,
+    /// From triangles to `masked`, as far as the last that has a mask; [`UNMASKED`] for those that have none.
+    index: Vec<u32>,
+    given: usize,
+}
+
+const UNMASKED: u32 = u32::MAX;
+
+impl<'a> Masks<'a> {
+    /// None yet; they will be asked at places of a view's map.
+    pub fn new(view: &View) -> Self {
+        Self { view: *view, masked: Vec::new(), index: Vec::new(), given: 0 }
+    }
+
+    /// Takes one more caster, in the order of the bins, and gives its triangle.
+    #[inline(always)]
+    pub fn note(&mut self, caster: Caster<'a>) -> Triangle {
+        if let Some(mask) = caster.mask {
+            self.add(mask, &caster.triangle);
+        }
+        self.given += 1;
+        caster.triangle
+    }
+
+    #[cold]
+    fn add(&mut self, mask: Mask<'a>, triangle: &Triangle) {
+        self.index.resize(self.given, UNMASKED);
+        self.index.push(self.masked.len() as u32);
+        self.masked.push(Masked::new(&self.view, mask, triangle));
+    }
+
+    /// The mask of a facet that has one.
+    #[inline(always)]
+    pub fn of(&self, facet: &Facet) -> Option<&Masked<'a>> {
+        self.masked.get(*self.index.get(facet.triangle as usize)? as usize)
+    }
+
+    /// [`Bins::tile`] of bins of the same view, without the samples where masks say that nothing is there.
+    #[inline(always)]
+    pub fn tile(&self, bins: &Bins, tile: UVec2, mut sink: impl FnMut(&Facet, &Coverage)) {
+        bins.tile(tile, |facet, coverage| {
+            let cut;
+            let coverage = match self.of(facet) {
+                None => coverage,
+                Some(masked) => {
+                    cut = self.cut(masked, facet, (tile * BIN).as_ivec2(), coverage);
+                    // Who has no sample touches no tile.
+                    if cut.rows == [0; 32] {
+                        return;
+                    }
+                    &cut
+                }
+            };
+            sink(facet, coverage);
+        });
+    }
+
+    /// A coverage, as far as a mask leaves it.
+    #[cold]
+    fn cut(&self, masked: &Masked<'_>, facet: &Facet, origin: IVec2, coverage: &Coverage) -> Coverage {
+        let mut cut = *coverage;
+        for (y, row) in (0..).zip(&mut cut.rows) {
+            let mut bits = *row;
+            while bits != 0 {
+                let x = bits.trailing_zeros();
+                bits &= bits - 1;
+                let at = self.view.sampling().position(origin + IVec2::new(x as i32, y));
+                *row &= !(u32::from(!self.is_there(masked, facet, at)) << x);
+            }
+        }
+        cut
+    }
+
+    /// Whether anything of a facet is at a place of the map, in texels.
+    pub fn is_there(&self, masked: &Masked<'_>, facet: &Facet, at: DVec2) -> bool {
+        let Facet { triangle, object, .. } = *facet;
+        (masked.mask)(&MaskPlace { triangle, object, weights: masked.weights(ray(&self.view, at)) })
+    }
+}
+
+/// A mask, and what gives the weights of its triangle's corners.
+pub(crate) struct Masked<'a> {
+    mask: Mask<'a>,
+    /// The weights of the second and the third corner at a ray are its products with these, over its product with `whole`.
+    second: DVec3,
+    third: DVec3,
+    whole: DVec3,
+}
+
+impl<'a> Masked<'a> {
+    fn new(view: &View, mask: Mask<'a>, triangle: &Triangle) -> Self {
+        let eye = triangle.corners.map(|corner| view.world_to_eye().transform_point3(corner));
+        // Differences are taken before the turn: those of a scene far from the origin lose nothing in it.
+        let edge = |corner: usize| {
+            let edge = view.world_to_eye().transform_vector3(triangle.corners[corner] - triangle.corners[0]);
+            if view.is_perspective() { edge } else { DVec3::new(edge.x, edge.y, 0.0) }
+        };
+        let (first, b, c) = (places(view, eye)[0], edge(1), edge(2));
+        // Cramer's rule: the ray r meets first + s·b + t·c where s = r·(first × c) / r·(c × b) and t = r·(b × first) / r·(c × b).
+        Self { mask, second: first.cross(c), third: b.cross(first), whole: c.cross(b) }
+    }
+
+    fn weights(&self, ray: DVec3) -> DVec3 {
+        let whole = self.whole.dot(ray);
+        let (second, third) = (self.second.dot(ray) / whole, self.third.dot(ray) / whole);
+        // `max` first: it turns NaN into 0.
+        let inside = DVec3::new(1.0 - second - third, second, third).max(DVec3::ZERO).min(DVec3::ONE);
+        let sum = inside.element_sum();
+        if sum > 0.0 { inside / sum } else { DVec3::splat(1.0 / 3.0) }
+    }
+}
