@@ -328,9 +328,9 @@ fn a_probe_is_told_why_each_place_is_lit_or_dark() {
             let (mut told, mut out) = (Told::default(), [0.0]);
             let at = std::slice::from_ref(&point);
             if around {
-                lamp.fractions_probed(at, KEY, &mut out, &mut told)
+                lamp.fractions_probed(at, KEY, &mut out, &mut told);
             } else {
-                spot.fractions_probed(at, KEY, &mut out, &mut told)
+                spot.fractions_probed(at, KEY, &mut out, &mut told);
             }
             let dark = told.0.iter().filter(|place| place.dark).count();
             // The first four are the region's corners, which say how lines are laid and do not count.

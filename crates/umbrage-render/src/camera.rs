@@ -87,7 +87,7 @@ impl Gather<'_> {
         facets: &[Facet],
         regions: &mut Vec<Region>,
     ) {
-        let mut groups: Vec<(Surface, Cells, Vec<(DVec2, u32)>)> = Vec::new();
+        let mut groups: Vec<Group> = Vec::new();
         for i in 0..self.axis * self.axis {
             let cell = UVec2::new(i % self.axis, i / self.axis);
             let at = corner + cell;
@@ -95,21 +95,21 @@ impl Gather<'_> {
             let Some(facet) = facets.get(sample.facet as usize) else { continue };
             let position = self.view.sampling().position(origin + at.as_ivec2());
             let surface = Surface::of(self.soup, facet);
-            let group = groups.iter_mut().find(|(known, ..)| *known == surface && !self.every_sample);
+            let group = groups.iter_mut().find(|group| group.surface == surface && !self.every_sample);
             let covered = |cells: Cells| cells.with(cell.x, cell.y, self.axis);
-            match group {
-                Some((_, cells, members)) => {
-                    *cells = covered(*cells);
-                    members.push((position, sample.facet));
-                }
-                None => groups.push((surface, covered(Cells::NONE), vec![(position, sample.facet)])),
+            if let Some(group) = group {
+                group.cells = covered(group.cells);
+                group.members.push((position, sample.facet));
+            } else {
+                let (cells, members) = (covered(Cells::NONE), vec![(position, sample.facet)]);
+                groups.push(Group { surface, cells, members });
             }
         }
         let middle = (origin.as_dvec2() + corner.as_dvec2()) + f64::from(self.axis) * 0.5;
         let place = (origin / self.axis as i32).as_uvec2() + corner / self.axis;
         let name = (place.y * self.width + place.x).wrapping_mul(64);
         let all = (self.axis * self.axis) as usize;
-        for (index, (surface, cells, members)) in groups.iter().enumerate() {
+        for (index, Group { surface, cells, members }) in groups.iter().enumerate() {
             let centre = if members.len() == all && !self.every_sample {
                 middle
             } else {
@@ -155,6 +155,15 @@ impl Gather<'_> {
             zeta: if self.view.is_perspective() { -1.0 / key } else { key } as f32,
         }
     }
+}
+
+/// Samples of a pixel that are shaded together.
+struct Group {
+    surface: Surface,
+    /// Where in the pixel they are.
+    cells: Cells,
+    /// Where each is, and the facet that it sees.
+    members: Vec<(DVec2, u32)>,
 }
 
 /// What samples have in common that are shaded together.

@@ -11,7 +11,8 @@ use umbrage_plane::{SurfacePoint, TexelRect, View};
 use umbrage_render::{Frame, bind_lights, light_map, light_maps, picture};
 use umbrage_report::{Made, Measure, Panel, Role, Table};
 use umbrage_sample::Key;
-use umbrage_scene::{Scene, gallery};
+use umbrage_scene::Scene;
+use umbrage_scene::gallery::{self, Make};
 use umbrage_shadow::Shadow;
 
 /// Our scene for each of the paper's four: its name here, the scene, casting lights, and from the paper the per cent of Table 1 and the
@@ -328,7 +329,7 @@ fn storage(cx: &Context) -> anyhow::Result<Made> {
 
 /// Scenes of plane things, and how many times smaller than raw depths a map of their facets is to be: the boxes, under a light square to the ground, by
 /// as much as a file can pack them.
-const PLANAR: [(&str, fn() -> Scene, f64); 5] = [
+const PLANAR: [(&str, Make, f64); 5] = [
     ("box, slab", gallery::box_plane, 5.0),
     ("contact box", gallery::contact_box, 5.0),
     ("table", gallery::table, 5.0),

@@ -46,7 +46,7 @@ fn where_wrong(cx: &Context) -> anyhow::Result<Made> {
     let mut rows = Vec::new();
     // Squared error by cause, the last what none of them mends, and how many pixels are far off.
     let mut total = [0.0; CAUSES.len() + 1];
-    let (mut seen, mut judged, mut far) = (0, 0, 0u32);
+    let (mut seen, mut judged, mut far) = (0u32, 0u32, 0u32);
     let mut worst = Vec::new();
     for (name, make) in STAGES {
         let judge = Judge::new(cx, make, pixels, texels);
@@ -68,7 +68,7 @@ fn where_wrong(cx: &Context) -> anyhow::Result<Made> {
             }
             shares[cause] += f64::from(error * error);
             judged += 1;
-            seen += usize::from(error > SEEN);
+            seen += u32::from(error > SEEN);
             far += u32::from(error > SEEN && judge.sure()[i]);
             if error > most.0 {
                 most = (error, i);
@@ -98,7 +98,7 @@ fn where_wrong(cx: &Context) -> anyhow::Result<Made> {
         made.panels.push(zoomed(&format!("{name}-truth"), "Ray-traced", judge.truth(), at, PART).role(Role::Truth));
     }
     made.measures = vec![
-        Measure::at_most("pixels off by more than a quarter", seen as f64 / judged as f64, "share", 0.001)
+        Measure::at_most("pixels off by more than a quarter", f64::from(seen) / f64::from(judged), "share", 0.001)
             .full_size(cx.quick),
         Measure::at_most("those of them farther than three pixels from any edge", f64::from(far), "pixels", 0.0)
             .full_size(cx.quick),
