@@ -188,6 +188,14 @@ fn a_wide_spot_has_several_maps_that_are_one_light() {
             let found = light.shadow.fraction(&SurfacePoint::at(Vec3::new(x, 0.1, 0.0), Vec3::Z), Key::new(0, 0, 0));
             assert_eq!(found, want, "at {x} of a cone that reaches {reach}");
         }
+        if reach.is_finite() {
+            // Half of it beyond the rim.
+            let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
+            let corners = corners.map(|(x, y)| DVec3::new(reach + x, y, 0.0));
+            let rim = SurfacePoint::at(DVec3::X * reach, Vec3::Z).with_corners(corners);
+            let found = light.shadow.fraction(&rim, Key::new(0, 0, 0));
+            assert!((found - 0.5).abs() < 0.1, "{found} at the rim");
+        }
         let above = SurfacePoint::at(Vec3::new(1.0, 0.0, 2.5), Vec3::NEG_Z);
         assert_eq!(light.shadow.fraction(&above, Key::new(0, 0, 0)), 1.0, "behind it nothing is lit");
     }

@@ -4,6 +4,7 @@ mod around;
 mod bounded;
 mod lat_long;
 mod mean;
+mod several;
 mod shadow_map;
 mod tags;
 mod through;

@@ -1,3 +1,4 @@
+use super::several::{add_fractions, add_passes};
 use super::{Shadow, same_length};
 use glam::Vec3;
 use umbrage_plane::SurfacePoint;
@@ -11,29 +12,14 @@ pub struct Through<'a>(pub Vec<Box<dyn Shadow + 'a>>);
 
 impl Shadow for Through<'_> {
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
-        same_length(at, out);
-        let mut one = vec![0.0; at.len()];
         out.fill(0.0);
-        for shadow in &self.0 {
-            shadow.fractions(at, key, &mut one);
-            for (dark, more) in out.iter_mut().zip(&one) {
-                *dark += (1.0 - *dark) * more;
-            }
-        }
+        add_fractions(&self.0, at, key, out, |dark, more| *dark += (1.0 - *dark) * more);
     }
 
     fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
         same_length(at, fractions);
-        same_length(at, out);
-        let (mut dark, mut one) = (vec![0.0; at.len()], vec![Vec3::ONE; at.len()]);
         out.fill(Vec3::ONE);
-        for shadow in &self.0 {
-            shadow.fractions(at, key, &mut dark);
-            shadow.transmittances(at, key, &dark, &mut one);
-            for (passes, more) in out.iter_mut().zip(&one) {
-                *passes *= *more;
-            }
-        }
+        add_passes(&self.0, at, key, out, |passes, more| *passes *= more);
     }
 }
 
