@@ -139,6 +139,17 @@ fn the_six_maps_of_a_lamp_are_one_light() {
     let views = cube_views(DVec3::ZERO, 0.1, 40.0, 512).unwrap();
     let maps = views.map(|view| bake_refined(&view, triangles.iter().copied(), &Refinement::default()).map);
     let lamp = Around::new(DualPlane::default(), maps.to_vec()).unwrap();
+    // The same with each of the maps fitted to what is asked about: what lies about the seam between two of them.
+    let part = DVec3::new(1.0, 1.0, 0.2).normalize();
+    let toward = |point: &SurfacePoint| point.position.normalize().dot(part) > 0.88;
+    let asked: Vec<SurfacePoint> = points(&boxes, 500_000, 0.04).into_iter().filter(toward).collect();
+    let seen: Vec<DVec3> = asked.iter().flat_map(|point| point.corners()).collect();
+    let with = LightUse { receivers: Some(&seen), ..LightUse::default() };
+    let recipe: Recipe = "auto,window=fitted".parse().unwrap();
+    let fitted = recipe.shadow_of(&views, &with, |_, _| triangles.iter().copied()).unwrap();
+    assert!(fitted.maps.iter().zip(&views).filter(|(map, view)| map.view != **view).count() >= 2);
+    let (few, judged) = wrong(&ray, &*fitted.shadow, DVec3::ZERO, &asked, 0.08);
+    assert!(judged > 2000 && few * 2000 <= judged, "{few} of {judged}, fitted");
     for half in [0.0, 0.04] {
         let all = points(&boxes, 30_000, half);
         let (few, judged) = wrong(&ray, &lamp, DVec3::ZERO, &all, 0.08);

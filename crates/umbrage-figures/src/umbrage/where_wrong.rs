@@ -12,7 +12,7 @@ pub const WHERE: Figure = Figure {
     id: "U-auto-where",
     paper: Paper::Umbrage,
     title: "The default's worst pixels, and why they are wrong",
-    claim: "What is left is at edges finer than the map's samples; no surface shadows itself and none leaks.",
+    claim: "What is left is at edges, gaps and hollows finer than the map's samples; three pixels from any edge nothing is wrong.",
     make: where_wrong,
 };
 
