@@ -143,7 +143,7 @@ fn the_six_maps_of_a_lamp_are_one_light() {
     let part = DVec3::new(1.0, 1.0, 0.2).normalize();
     let toward = |point: &SurfacePoint| point.position.normalize().dot(part) > 0.88;
     let asked: Vec<SurfacePoint> = points(&boxes, 500_000, 0.04).into_iter().filter(toward).collect();
-    let seen: Vec<DVec3> = asked.iter().flat_map(|point| point.corners()).collect();
+    let seen: Vec<DVec3> = asked.iter().flat_map(SurfacePoint::corners).collect();
     let with = LightUse { receivers: Some(&seen), ..LightUse::default() };
     let recipe: Recipe = "auto,window=fitted".parse().unwrap();
     let fitted = recipe.shadow_of(&views, &with, |_, _| triangles.iter().copied()).unwrap();
