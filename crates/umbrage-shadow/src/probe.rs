@@ -76,7 +76,7 @@ pub trait Probe {
     /// A region that was compared on its tangent plane (WM94-15).
     #[inline(always)]
     fn virtual_sampled(&mut self) {}
-    /// Whether [`Probe::judged`] is to be told of every place that is asked about, which takes longer than the answer itself.
+    /// Whether [`Probe::judged`] is called for every place that is asked about, which takes longer than the answer itself.
     #[inline(always)]
     fn explains(&self) -> bool {
         false
