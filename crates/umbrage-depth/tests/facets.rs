@@ -124,6 +124,33 @@ fn a_map_read_again_is_the_map() {
     }
 }
 
+#[test]
+fn a_rectangle_has_the_samples_of_its_places() {
+    let mut alike = 0;
+    for (fine, seed) in [(1, 0), (2, 1), (3, 2), (4, 3), (8, 4)] {
+        let map = map(&spot(UVec2::new(70, 40)), fine, 8, seed);
+        let mut random = Random(seed);
+        for _ in 0..400 {
+            let low = IVec2::new(78, 48).map(|most| random.below(most as u32 * fine) as i32) - 4 * fine as i32;
+            let rect = TexelRect::new(low, low + IVec2::ONE.map(|side| side + random.below(12) as i32));
+            let mut met: Vec<IVec2> = Vec::new();
+            map.each_sample(rect, &mut |part, sample| {
+                assert!(part.texels().all(|at| map.sample(at) == *sample), "fine {fine}: {part:?} of {rect:?}");
+                met.extend(part.texels());
+                true
+            });
+            met.sort_by_key(|at| (at.y, at.x));
+            assert!(met.iter().copied().eq(rect.texels()), "fine {fine}: {rect:?}");
+            if let Some(one) = map.one_facet(rect) {
+                let like = |at| map.sample(at).plane == one.plane && map.sample(at).side == one.side;
+                assert!(rect.texels().all(like), "fine {fine}: {rect:?}");
+                alike += 1;
+            }
+        }
+    }
+    assert!(alike > 100, "{alike} rectangles of one facet");
+}
+
 /// Each of the forms, blocks and packed widths that there are must have been written above.
 #[test]
 fn every_form_occurs() {

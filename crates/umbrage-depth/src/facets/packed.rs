@@ -35,6 +35,12 @@ impl Packed {
         word >> place & (u32::MAX >> (32 - (1 << log)))
     }
 
+    /// Whether all numbers are 0 and nothing is kept.
+    #[inline(always)]
+    pub fn is_one(&self) -> bool {
+        self.log.is_none()
+    }
+
     pub fn bytes(&self) -> usize {
         size_of_val(self.words.as_ref())
     }

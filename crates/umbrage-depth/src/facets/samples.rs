@@ -2,8 +2,37 @@
 
 use super::FacetMap;
 use super::source::{FacetSample, FacetSource};
-use glam::IVec2;
-use umbrage_plane::TexelRect;
+use super::tile::FacetTile;
+use crate::TILE;
+use glam::{IVec2, UVec2};
+use umbrage_plane::{Affine, TexelRect};
+
+impl FacetMap {
+    /// The texel that a place of the finer grid lies in.
+    #[inline(always)]
+    fn texel_of(&self, at: IVec2) -> IVec2 {
+        if self.fine.is_power_of_two() {
+            // Shifts round down, below 0 too.
+            return at >> self.fine.trailing_zeros();
+        }
+        at.map(|at| at.div_euclid(self.fine as i32))
+    }
+
+    /// The sample of a texel that is not refined; nothing is outside the map.
+    #[inline(always)]
+    fn whole(&self, texel: IVec2, found: Option<(&FacetTile, IVec2, UVec2)>) -> FacetSample {
+        let centre = texel.as_dvec2() + 0.5;
+        let Some((tile, origin, within)) = found else { return FacetSample::nothing(centre) };
+        FacetSample { plane: self.plane(tile, texel, origin, within), at: centre, side: 1.0 }
+    }
+
+    /// The sample of a refined texel at a place of the finer grid.
+    #[inline(always)]
+    fn part(&self, at: IVec2, plane: Affine) -> FacetSample {
+        let side = 1.0 / f64::from(self.fine);
+        FacetSample { plane, at: (at.as_dvec2() + 0.5) * side, side }
+    }
+}
 
 impl FacetSource for FacetMap {
     #[inline(always)]
@@ -14,40 +43,35 @@ impl FacetSource for FacetMap {
     /// Nothing is outside the map.
     #[inline(always)]
     fn sample(&self, at: IVec2) -> FacetSample {
-        let fine = self.fine as i32;
-        let texel = IVec2::new(at.x.div_euclid(fine), at.y.div_euclid(fine));
-        let centre = texel.as_dvec2() + 0.5;
-        let Some((tile, origin, within)) = self.tile(texel) else { return FacetSample::nothing(centre) };
-        let place = at - texel * fine;
-        let sample = (place.y * fine + place.x) as usize;
-        if let Some(plane) = tile.sample(origin, within, sample, (fine * fine) as usize) {
-            let side = 1.0 / f64::from(fine);
-            return FacetSample { plane, at: (at.as_dvec2() + 0.5) * side, side };
+        let texel = self.texel_of(at);
+        let found = self.tile(texel);
+        if let Some((tile, origin, within)) = found
+            && let Some(block) = tile.block(within)
+        {
+            return self.part(at, block.plane(origin, at - texel * self.fine as i32, self.fine));
         }
-        FacetSample { plane: self.plane(tile, texel, origin, within), at: centre, side: 1.0 }
+        self.whole(texel, found)
     }
 
     /// Once for a texel that is not refined.
     #[inline(always)]
-    fn each_sample(&self, rect: TexelRect, each: &mut dyn FnMut(&FacetSample) -> bool) {
-        let fine = self.fine as i32;
-        let texel_of = |at: IVec2| IVec2::new(at.x.div_euclid(fine), at.y.div_euclid(fine));
-        let (from, to) = (texel_of(rect.min), texel_of(rect.max - 1));
+    fn each_sample(&self, rect: TexelRect, each: &mut dyn FnMut(TexelRect, &FacetSample) -> bool) {
+        let (from, to) = (self.texel_of(rect.min), self.texel_of(rect.max - 1));
         for y in from.y..=to.y {
             for x in from.x..=to.x {
                 let texel = IVec2::new(x, y);
-                let centre = texel.as_dvec2() + 0.5;
-                let goes_on = match self.tile(texel) {
-                    None => each(&FacetSample::nothing(centre)),
-                    Some((tile, _, within)) if tile.is_refined(within) => {
-                        let first = texel * fine;
-                        let part = TexelRect::new(first, first + fine).intersect(rect);
-                        part.texels().all(|at| each(&self.sample(at)))
-                    }
-                    Some((tile, origin, within)) => {
-                        let plane = self.plane(tile, texel, origin, within);
-                        each(&FacetSample { plane, at: centre, side: 1.0 })
-                    }
+                let first = texel * self.fine as i32;
+                let part = TexelRect::new(first, first + self.fine as i32).intersect(rect);
+                let found = self.tile(texel);
+                let goes_on = if let Some((tile, origin, within)) = found
+                    && let Some(block) = tile.block(within)
+                {
+                    part.texels().all(|at| {
+                        let sample = self.part(at, block.plane(origin, at - first, self.fine));
+                        each(TexelRect::new(at, at + 1), &sample)
+                    })
+                } else {
+                    each(part, &self.whole(texel, found))
                 };
                 if !goes_on {
                     return;
@@ -57,13 +81,22 @@ impl FacetSource for FacetMap {
     }
 
     #[inline(always)]
+    fn one_facet(&self, rect: TexelRect) -> Option<FacetSample> {
+        let (from, to) = (self.texel_of(rect.min), self.texel_of(rect.max - 1));
+        let (tile, origin, within) = self.tile(from)?;
+        // In one tile, none of whose texels is beyond the map.
+        let last = within.as_ivec2() + (to - from);
+        if last.cmpge(IVec2::splat(TILE as i32)).any() || to.cmpge(self.depths.view.size().as_ivec2()).any() {
+            return None;
+        }
+        tile.is_one_facet(within, last.as_uvec2()).then(|| self.whole(from, Some((tile, origin, within))))
+    }
+
+    #[inline(always)]
     fn link(&self, at: IVec2, down: bool) -> Option<f64> {
-        let fine = self.fine as i32;
-        let texel = IVec2::new(at.x.div_euclid(fine), at.y.div_euclid(fine));
+        let texel = self.texel_of(at);
         let (tile, _, within) = self.tile(texel)?;
-        let place = at - texel * fine;
-        let link = 2 * (place.y * fine + place.x) as usize + usize::from(down);
-        let slots = tile.link(within, link, (fine * fine) as usize)?;
+        let slots = tile.block(within)?.link(at - texel * self.fine as i32, self.fine, down)?;
         Some(f64::from(slots) / f64::from(self.slots))
     }
 }

@@ -27,14 +27,21 @@ pub trait FacetSource {
     /// The sample at a place of the finer grid.
     fn sample(&self, at: IVec2) -> FacetSample;
 
-    /// Calls `each` with all samples of a rectangle of the finer grid, one that several places share perhaps once. Stops when it returns
-    /// false.
-    fn each_sample(&self, rect: TexelRect, each: &mut dyn FnMut(&FacetSample) -> bool) {
+    /// Calls `each` with all samples of a rectangle of the finer grid and the part of it that each stands for: one that several places share
+    /// perhaps once. Stops when it returns false.
+    fn each_sample(&self, rect: TexelRect, each: &mut dyn FnMut(TexelRect, &FacetSample) -> bool) {
         for at in rect.texels() {
-            if !each(&self.sample(at)) {
+            if !each(TexelRect::new(at, at + 1), &self.sample(at)) {
                 return;
             }
         }
+    }
+
+    /// The sample of a rectangle's first place, where all of the rectangle has that sample's plane and no texel of it is refined. `None` where that is
+    /// not so, or not known at once.
+    fn one_facet(&self, rect: TexelRect) -> Option<FacetSample> {
+        let _ = rect;
+        None
     }
 
     /// Where the first surface changes on the way from a sample of the finer grid to its neighbour to the right, or downward: 0 at the

@@ -164,42 +164,31 @@ impl FacetTile {
         }
     }
 
-    /// The index of a texel's block, where it is refined.
+    /// A texel's block, where it is refined.
     #[inline(always)]
-    fn block(&self, at: UVec2) -> Option<(&Blocks, usize)> {
+    pub(super) fn block(&self, at: UVec2) -> Option<Block<'_>> {
         let blocks = self.blocks.as_deref()?;
         let row = blocks.refined[at.y as usize];
-        let before = (row & ((1 << at.x) - 1)).count_ones() as usize;
-        (row >> at.x & 1 == 1).then(|| (blocks, usize::from(blocks.before[at.y as usize]) + before))
-    }
-
-    /// Whether a texel is kept as several samples.
-    #[inline(always)]
-    pub(super) fn is_refined(&self, at: UVec2) -> bool {
-        self.blocks.as_ref().is_some_and(|blocks| blocks.refined[at.y as usize] >> at.x & 1 == 1)
-    }
-
-    /// The plane of a refined texel's sample; `None` where the texel is not refined.
-    #[inline(always)]
-    pub(super) fn sample(&self, origin: IVec2, at: UVec2, sample: usize, per_block: usize) -> Option<Affine> {
-        let (blocks, block) = self.block(at)?;
-        let Cells::Table { planes, .. } = &self.cells else { return None };
-        Some(planes.get(blocks.samples.get(block * per_block + sample), origin))
-    }
-
-    /// The slots of a link that see its sample's surface, where it is kept.
-    #[inline(always)]
-    pub(super) fn link(&self, at: UVec2, link: usize, per_block: usize) -> Option<u32> {
-        let (blocks, block) = self.block(at)?;
-        let words = (2 * per_block).div_ceil(32);
-        let kept = &blocks.kept[block * words..][..words];
-        let (word, bit) = (link / 32, link % 32);
-        if kept[word] >> bit & 1 == 0 {
+        if row >> at.x & 1 == 0 {
             return None;
         }
-        let before: u32 = kept[..word].iter().map(|word| word.count_ones()).sum();
-        let before = before + (kept[word] & ((1 << bit) - 1)).count_ones();
-        Some(blocks.places.get((blocks.first[block] + before) as usize))
+        let Cells::Table { planes, .. } = &self.cells else { return None };
+        let before = (row & ((1 << at.x) - 1)).count_ones() as usize;
+        Some(Block { planes, blocks, index: usize::from(blocks.before[at.y as usize]) + before })
+    }
+
+    /// Whether all texels of a rectangle, its last among them, have one plane of the table and none is refined.
+    #[inline(always)]
+    pub(super) fn is_one_facet(&self, first: UVec2, last: UVec2) -> bool {
+        let Cells::Table { texels, .. } = &self.cells else { return false };
+        let columns = (u32::MAX >> (TILE - 1 - last.x)) & (u32::MAX << first.x);
+        let refined = |y: u32| self.blocks.as_ref().is_some_and(|blocks| blocks.refined[y as usize] & columns != 0);
+        if (first.y..=last.y).any(refined) {
+            return false;
+        }
+        let index = |x: u32, y: u32| (y * TILE + x) as usize;
+        let own = texels.get(index(first.x, first.y));
+        texels.is_one() || (first.y..=last.y).all(|y| (first.x..=last.x).all(|x| texels.get(index(x, y)) == own))
     }
 
     /// Number of refined texels.
@@ -226,6 +215,38 @@ impl FacetTile {
 /// The range of a tile with these depths; of none where filters ask samples, as they do of refined maps.
 pub(super) fn range(depths: impl Iterator<Item = f32>) -> DepthRange {
     depths.map(|depth| DepthRange { min: depth, max: depth }).reduce(DepthRange::union).unwrap_or(DepthRange::UNKNOWN)
+}
+
+/// The samples and links of a refined texel.
+pub(super) struct Block<'a> {
+    planes: &'a Planes,
+    blocks: &'a Blocks,
+    /// Its place among the tile's.
+    index: usize,
+}
+
+impl Block<'_> {
+    /// The plane of the sample at a place of the block, in a tile whose upper left texel is `origin`.
+    #[inline(always)]
+    pub fn plane(&self, origin: IVec2, place: IVec2, fine: u32) -> Affine {
+        let (sample, per_block) = (place.y as usize * fine as usize + place.x as usize, (fine * fine) as usize);
+        self.planes.get(self.blocks.samples.get(self.index * per_block + sample), origin)
+    }
+
+    /// The slots that see their sample's surface, of the link from a place of the block to the right or downward; `None` where it is not kept.
+    #[inline(always)]
+    pub fn link(&self, place: IVec2, fine: u32, down: bool) -> Option<u32> {
+        let link = 2 * (place.y as usize * fine as usize + place.x as usize) + usize::from(down);
+        let words = Blocks::link_words(fine);
+        let kept = &self.blocks.kept[self.index * words..][..words];
+        let (word, bit) = (link / 32, link % 32);
+        if kept[word] >> bit & 1 == 0 {
+            return None;
+        }
+        let before: u32 = kept[..word].iter().map(|word| word.count_ones()).sum();
+        let before = before + (kept[word] & ((1 << bit) - 1)).count_ones();
+        Some(self.blocks.places.get((self.blocks.first[self.index] + before) as usize))
+    }
 }
 
 /// What a texel stores.
@@ -331,6 +352,7 @@ impl Blocks {
     }
 
     /// Words that say which links of a block are kept.
+    #[inline(always)]
     pub(super) fn link_words(fine: u32) -> usize {
         (2 * fine * fine).div_ceil(32) as usize
     }

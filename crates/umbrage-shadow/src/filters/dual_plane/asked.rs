@@ -4,7 +4,8 @@ use super::parameters::DualPlane;
 use crate::query::answer;
 use crate::{Crossing, Probe, Query};
 use fearless_simd::Simd;
-use glam::{DVec2, IVec2};
+use glam::{DVec2, IVec2, UVec2};
+use std::cell::Cell;
 use umbrage_depth::{DepthMap, FacetSample, FacetSource};
 use umbrage_plane::{Affine, Cells, TexelRect, View};
 
@@ -43,21 +44,24 @@ pub(super) struct Voter {
     pub there: f64,
     /// What it must pass by.
     pub passed: f64,
+    /// What it says of the whole region, where that is one thing.
+    settled: Option<bool>,
 }
 
 impl Voter {
     /// Calls everything lit.
-    const NOTHING: Self = Self { behind: Affine::constant(-1.0), there: f64::NEG_INFINITY, passed: 0.0 };
+    const NOTHING: Self =
+        Self { behind: Affine::constant(-1.0), there: f64::NEG_INFINITY, passed: 0.0, settled: Some(false) };
 
-    /// Whether the sample calls a place dark.
+    /// Whether the sample calls a place of the region dark.
     #[inline(always)]
     pub fn dark(&self, at: DVec2) -> bool {
-        self.there > 0.0 && self.behind.at(at) > 0.0
+        self.settled.unwrap_or_else(|| self.there > 0.0 && self.behind.at(at) > 0.0)
     }
 }
 
 /// Samples along each side of the region that are kept at hand; larger regions ask the map for each place.
-const AT_HAND: i32 = 9;
+const AT_HAND: usize = 9;
 
 /// How often the cell between two places of different answers is halved to find the edge.
 const HALVINGS: u32 = 3;
@@ -68,13 +72,16 @@ const MOST_AGREED: f64 = 16.0;
 /// Beyond so many samples from the origin, and at NaN, no map has one.
 pub(super) const FAR: f64 = 1e9;
 
-/// The samples under a region.
-pub(super) struct Grid<'a, 'b, F: ?Sized> {
+/// The samples at up to `N` places of the finer grid, as many as lie under a region or at the corners of a cell.
+pub(super) struct Grid<'a, 'b, F: ?Sized, const N: usize> {
     asked: &'b Asked<'a, F>,
-    /// The finer grid's column and row of the first, and columns.
     rect: TexelRect,
-    /// What each says, and what it says of the whole region where that is one thing.
-    voters: Vec<(Voter, Option<bool>)>,
+    /// What the samples say, each once.
+    voters: [Voter; N],
+    /// For each place, row by row, whose it is.
+    of: [u8; N],
+    /// Where the way from a place to its neighbour to the right, and downward, is crossed, once that was asked; NaN before.
+    crossed: [[Cell<f64>; 2]; N],
 }
 
 impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
@@ -128,8 +135,11 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
         }
         let rect = TexelRect::new(low.as_ivec2(), high.as_ivec2());
         let inside = self.view.holds(centre.as_vec2(), reach.as_vec2());
+        if inside && let Some(dark) = self.of_one_plane(rect, reach) {
+            return (f32::from(u8::from(dark)), 1);
+        }
         let wide = (high - low).max_element();
-        let small = wide <= f64::from(AT_HAND);
+        let small = wide <= AT_HAND as f64;
         if inside && wide <= MOST_AGREED * fine {
             let (agreed, looked) = self.agreed(rect);
             if let Some(dark) = agreed {
@@ -137,33 +147,57 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
             }
         }
         let looked = rect.area().min(4 * (self.across * self.across) as usize) as u32;
-        (if small { Grid::new(self, rect).fraction(inside) } else { self.one_by_one() }, looked)
+        (
+            if small {
+                Grid::<F, { AT_HAND * AT_HAND }>::new(self, rect).fraction(inside)
+            } else {
+                self.one_by_one(inside)
+            },
+            looked,
+        )
+    }
+
+    /// The answer where all samples of a rectangle see one facet, that answers alike for each of them and for all places of the region.
+    #[inline(always)]
+    fn of_one_plane(&self, rect: TexelRect, reach: DVec2) -> Option<bool> {
+        let sample = self.map.one_facet(rect)?;
+        let Voter { behind, .. } = self.voter(&sample);
+        // Wherever the samples of these places were taken, and the region.
+        let side = 1.0 / f64::from(self.map.fine());
+        let low = (rect.min.as_dvec2() * side - 1.0).min(self.part.0 - reach);
+        let high = (rect.max.as_dvec2() * side + 1.0).max(self.part.0 + reach);
+        let middle = behind.at(0.5 * (low + high));
+        let half = 0.5 * (high - low);
+        let spread = (behind.dx.abs() * half.x + behind.dy.abs() * half.y) * (1.0 + 1e-9);
+        let (dark, lit) = (middle - spread > 0.0, middle + spread <= 0.0);
+        (dark != lit).then_some(dark)
     }
 
     /// The answer of all samples of a rectangle for all places of the region, where it is one; and how many were looked at.
     #[inline(always)]
     fn agreed(&self, rect: TexelRect) -> (Option<bool>, u32) {
-        let (mut lit, mut dark, mut looked) = (true, true, 0);
-        self.map.each_sample(rect, &mut |sample| {
+        let (mut agreed, mut looked) = (None, 0);
+        self.map.each_sample(rect, &mut |_, sample| {
             looked += 1;
-            let voter = self.voter(sample);
-            let (nearest, farthest) = self.behind(&voter);
-            dark &= voter.there > 0.0 && nearest > 0.0;
-            lit &= voter.there <= 0.0 || farthest <= 0.0;
-            dark || lit
+            let said = self.voter(sample).settled;
+            let goes_on = said.is_some() && (looked == 1 || said == agreed);
+            agreed = if goes_on { said } else { None };
+            goes_on
         });
-        (settled(dark, lit), looked)
+        (agreed, looked)
     }
 
-    /// How far the region lies behind a sample's plane, less what it must pass by: the least and the most.
+    /// What a sample says of the whole region, where that is one thing, by how far its places lie behind the sample's plane.
     #[inline(always)]
-    fn behind(&self, voter: &Voter) -> (f64, f64) {
+    fn settled(&self, behind: &Affine, there: f64) -> Option<bool> {
         let (centre, axes) = self.part;
-        let middle = voter.behind.at(centre);
-        let along = |axis: DVec2| (voter.behind.dx * axis.x + voter.behind.dy * axis.y).abs();
+        let middle = behind.at(centre);
+        let along = |axis: DVec2| (behind.dx * axis.x + behind.dy * axis.y).abs();
         // A little more than the region, so that no rounding decides.
         let spread = (along(axes[0]) + along(axes[1])) * (1.0 + 1e-9);
-        (middle - spread, middle + spread)
+        let dark = there > 0.0 && middle - spread > 0.0;
+        let lit = there <= 0.0 || middle + spread <= 0.0;
+        (dark != lit).then_some(dark)
     }
 
     #[inline(always)]
@@ -178,7 +212,8 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
         let passed = rounding + (self.width + self.slope * gentle) * sample.side.max(self.least);
         let behind =
             Affine { c: self.plane.c - plane.c - passed, dx: self.plane.dx - plane.dx, dy: self.plane.dy - plane.dy };
-        Voter { behind, there: behind.at(sample.at), passed }
+        let there = behind.at(sample.at);
+        Voter { behind, there, passed, settled: self.settled(&behind, there) }
     }
 
     /// The answer of a place that the view's rules settle.
@@ -240,28 +275,31 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
 
     /// A large region: the map is asked anew for each place.
     #[inline(never)]
-    fn one_by_one(&self) -> f32 {
-        self.share(false, |at| {
+    fn one_by_one(&self, inside: bool) -> f32 {
+        self.share(inside, |at| {
             let corner = (at * f64::from(self.map.fine()) - 0.5).floor().as_ivec2();
-            Grid::new(self, TexelRect::new(corner, corner + 2)).dark(at)
+            Grid::<F, 4>::new(self, TexelRect::new(corner, corner + 2)).dark(at)
         })
     }
 }
 
-/// The one of two that holds; `None` where neither or both do.
-#[inline(always)]
-fn settled(dark: bool, lit: bool) -> Option<bool> {
-    (dark != lit).then_some(dark)
-}
-
-impl<'a, 'b, F: FacetSource + ?Sized> Grid<'a, 'b, F> {
+impl<'a, 'b, F: FacetSource + ?Sized, const N: usize> Grid<'a, 'b, F, N> {
+    #[inline(always)]
     pub fn new(asked: &'b Asked<'a, F>, rect: TexelRect) -> Self {
-        let voter = |at: IVec2| {
-            let voter = asked.voter(&asked.map.sample(at));
-            let (nearest, farthest) = asked.behind(&voter);
-            (voter, settled(voter.there > 0.0 && nearest > 0.0, voter.there <= 0.0 || farthest <= 0.0))
-        };
-        Self { asked, rect, voters: rect.texels().map(voter).collect() }
+        let columns = (rect.max.x - rect.min.x) as usize;
+        let crossed = [const { [const { Cell::new(f64::NAN) }; 2] }; N];
+        let mut grid = Self { asked, rect, voters: [Voter::NOTHING; N], of: [0; N], crossed };
+        let mut count = 0;
+        asked.map.each_sample(rect, &mut |part, sample| {
+            let (from, to) = ((part.min - rect.min).as_usizevec2(), (part.max - rect.min).as_usizevec2());
+            for row in from.y..to.y {
+                grid.of[row * columns + from.x..row * columns + to.x].fill(count as u8);
+            }
+            grid.voters[count] = asked.voter(sample);
+            count += 1;
+            true
+        });
+        grid
     }
 
     #[inline(never)]
@@ -269,40 +307,42 @@ impl<'a, 'b, F: FacetSource + ?Sized> Grid<'a, 'b, F> {
         self.asked.share(inside, |at| self.dark(at))
     }
 
+    /// The place of a cell's corner, by its number row by row, among those of the grid.
     #[inline(always)]
-    fn voter(&self, at: IVec2) -> &(Voter, Option<bool>) {
-        let (from, columns) = (at - self.rect.min, self.rect.max.x - self.rect.min.x);
-        &self.voters[(from.y * columns + from.x) as usize]
+    fn corner(&self, cell: UVec2, corner: usize) -> usize {
+        let columns = (self.rect.max.x - self.rect.min.x) as usize;
+        (cell.y as usize + (corner >> 1)) * columns + cell.x as usize + (corner & 1)
     }
 
     /// Whether a place is dark.
     #[inline(always)]
     pub fn dark(&self, at: DVec2) -> bool {
-        let place = at * f64::from(self.asked.map.fine()) - 0.5;
+        let place = at * f64::from(self.asked.map.fine()) - (self.rect.min.as_dvec2() + 0.5);
         // Roundings of a place at the region's rim.
-        let corner = place.floor().as_ivec2().clamp(self.rect.min, self.rect.max - 2);
-        let vote = |k: i32| {
-            let (voter, settled) = self.voter(corner + IVec2::new(k & 1, k >> 1));
-            settled.unwrap_or_else(|| voter.dark(at))
-        };
+        let cell = place.as_uvec2().min((self.rect.max - self.rect.min - 2).as_uvec2());
+        let corners = [0, 1, 2, 3].map(|corner| self.of[self.corner(cell, corner)]);
+        let vote = |k: usize| self.voters[usize::from(corners[k])].dark(at);
+        if corners == [corners[0]; 4] {
+            return vote(0);
+        }
         let votes = [vote(0), vote(1), vote(2), vote(3)];
         if votes == [votes[0]; 4] {
             return votes[0];
         }
-        self.shape(corner, votes, place - corner.as_dvec2())
+        self.shape(cell, votes, place - cell.as_dvec2())
     }
 
     /// Marching squares: on which side of the edge a place is, where the corners disagree. `within` the cell, 0 to 1 from its upper left
     /// corner.
-    fn shape(&self, corner: IVec2, votes: [bool; 4], within: DVec2) -> bool {
+    fn shape(&self, cell: UVec2, votes: [bool; 4], within: DVec2) -> bool {
         let [a, b, c, d] = votes;
         let dark = votes.iter().filter(|vote| **vote).count();
-        let crossed = |from: usize, to: usize| self.crossing(corner, from, to).place();
+        let crossed = |from: usize, to: usize| self.crossed(cell, from, to);
         match dark {
             // One corner stands alone.
             1 | 3 => {
                 let alone = votes.iter().position(|vote| *vote == (dark == 1)).unwrap_or(0);
-                self.beyond(corner, alone, within) != (dark == 1)
+                self.beyond(cell, alone, within) != (dark == 1)
             }
             // The upper and lower sides are crossed.
             _ if a == c && b == d => {
@@ -315,14 +355,15 @@ impl<'a, 'b, F: FacetSource + ?Sized> Grid<'a, 'b, F> {
                 if within.y < left + (right - left) * within.x { a } else { c }
             }
             // Opposite corners agree: the middle is in shadow.
-            _ => (0..4).filter(|corner| !votes[*corner]).all(|lit| self.beyond(corner, lit, within)),
+            _ => (0..4).filter(|corner| !votes[*corner]).all(|lit| self.beyond(cell, lit, within)),
         }
     }
 
     /// Whether a place lies beyond the line that cuts a corner of a cell off.
-    fn beyond(&self, cell: IVec2, corner: usize, within: DVec2) -> bool {
+    #[inline(always)]
+    fn beyond(&self, cell: UVec2, corner: usize, within: DVec2) -> bool {
         let from_corner = |to: usize| {
-            let place = self.crossing(cell, corner.min(to), corner.max(to)).place();
+            let place = self.crossed(cell, corner.min(to), corner.max(to));
             if corner < to { place } else { 1.0 - place }
         };
         let (p, q) = (from_corner(corner ^ 1), from_corner(corner ^ 2));
@@ -332,16 +373,27 @@ impl<'a, 'b, F: FacetSource + ?Sized> Grid<'a, 'b, F> {
         x * q + y * p >= p * q
     }
 
+    /// [`Grid::crossing`], found once.
+    #[inline(always)]
+    fn crossed(&self, cell: UVec2, from: usize, to: usize) -> f64 {
+        let known = &self.crossed[self.corner(cell, from)][usize::from(to - from == 2)];
+        if known.get().is_nan() {
+            known.set(self.crossing(cell, from, to).place());
+        }
+        known.get()
+    }
+
     /// Where a side of a cell is crossed, from 0 at `from`, its upper or left end, to 1: where the map saw the surface change, or where the
-    /// receiver's plane passes from behind one to before the other, or in the middle.
-    pub fn crossing(&self, cell: IVec2, from: usize, to: usize) -> Crossing {
-        let at = |corner: usize| cell + IVec2::new(corner as i32 & 1, corner as i32 >> 1);
-        if let Some(place) = self.asked.map.link(at(from), to - from == 2) {
+    /// receiver's plane passes from behind one to before the other, or in the middle. The cell is counted from the grid's first.
+    #[inline(never)]
+    pub fn crossing(&self, cell: UVec2, from: usize, to: usize) -> Crossing {
+        let begin = self.rect.min + cell.as_ivec2() + IVec2::new(from as i32 & 1, from as i32 >> 1);
+        if let Some(place) = self.asked.map.link(begin, to - from == 2) {
             return Crossing::Link(place);
         }
         // Whether the receiver is behind a plane or before it is not known where it lies on it.
         let behind = |corner: usize| {
-            let (Voter { there, passed, .. }, _) = *self.voter(at(corner));
+            let Voter { there, passed, .. } = self.voters[usize::from(self.of[self.corner(cell, corner)])];
             Some(there + passed).filter(|behind| behind.is_finite() && behind.abs() > passed)
         };
         match (behind(from), behind(to)) {

@@ -2,7 +2,7 @@
 
 use super::asked::{Asked, FAR, Grid, Voter};
 use crate::{Crossing, PlaceJudged, Probe, Vote};
-use glam::{DVec2, IVec2};
+use glam::{DVec2, IVec2, UVec2};
 use umbrage_depth::{FacetSample, FacetSource};
 use umbrage_plane::TexelRect;
 
@@ -24,13 +24,13 @@ pub(super) fn explain<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, probe: &mut
 
 fn judged<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, at: DVec2) -> PlaceJudged {
     let corner = (at * f64::from(asked.map.fine()) - 0.5).floor().as_ivec2();
-    let grid = Grid::new(asked, TexelRect::new(corner, corner + 2));
+    let grid = Grid::<F, 4>::new(asked, TexelRect::new(corner, corner + 2));
     let votes = [0, 1, 2, 3].map(|k| {
         let sample = asked.map.sample(corner + IVec2::new(k & 1, k >> 1));
         vote(asked, &sample, at)
     });
     let crossed = |(from, to): (usize, usize)| -> Option<Crossing> {
-        (votes[from].dark != votes[to].dark).then(|| grid.crossing(corner, from, to))
+        (votes[from].dark != votes[to].dark).then(|| grid.crossing(UVec2::ZERO, from, to))
     };
     let ruled = asked.ruled(at).map(|dark| dark > 0.0);
     PlaceJudged { at, ruled, votes, crossings: SIDES.map(crossed), dark: ruled.unwrap_or_else(|| grid.dark(at)) }
