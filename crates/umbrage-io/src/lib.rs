@@ -8,6 +8,8 @@
 //!   blocks and links in a second part.
 //! * [`Paged`]: a shadow map's file with only the tiles looked at last in memory (R87-20).
 //! * [`write_png`], [`write_png_grey`], [`write_exr`]: pictures from linear light (X-7); [`read_png`] for comparing.
+//! * [`encode_png_values`], [`encode_exr_values`]: a quantity for each pixel, such as a fraction in shadow, without a curve.
+//! * [`read_map`]: whichever of these maps a file holds.
 //! * [`depth_view`] and [`replicate`]: a map as a grey picture, a zoom without invention.
 //! * [`write_atomic`]: the one path on which all of these write. A killed run leaves no torn file.
 //!
@@ -24,6 +26,7 @@
 //! # Ok::<(), umbrage_io::Fault>(())
 //! ```
 
+mod any_map;
 mod cube;
 mod deep_map;
 mod depth_view;
@@ -34,6 +37,7 @@ mod paged;
 mod picture;
 mod shadow_map;
 
+pub use any_map::{decode_map, read_map};
 pub use cube::opengl_cube_face;
 pub use deep_map::{
     DEFAULT_DEEP_BUDGET, decode_deep_map, encode_deep_map, read_deep_map, read_deep_map_within, write_deep_map,
@@ -46,8 +50,8 @@ pub use facet_map::{
 pub use file::{write_atomic, write_bytes};
 pub use paged::{Paged, PagedHandle};
 pub use picture::{
-    Codes, decode_png, encode_exr, encode_png, encode_png_grey, linear_to_srgb8, read_png, replicate, write_exr,
-    write_png, write_png_grey,
+    Codes, decode_png, encode_exr, encode_exr_values, encode_png, encode_png_grey, encode_png_values, linear_to_srgb8,
+    read_png, replicate, write_exr, write_png, write_png_grey,
 };
 pub use shadow_map::{
     DEFAULT_BUDGET, decode_shadow_map, encode_shadow_map, read_shadow_map, read_shadow_map_within, write_shadow_map,

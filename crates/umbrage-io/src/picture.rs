@@ -46,6 +46,25 @@ pub fn encode_png_grey(size: UVec2, linear_grey: &[f32]) -> Result<Vec<u8>, Faul
     encode(size, &codes, ColorType::Grayscale)
 }
 
+/// A PNG file's bytes of a quantity: 16 bits of grey without a curve, 0 is 0 and 1 is 65535; below 0 and NaN are 0, above 1 is 65535. A
+/// `gAMA` chunk of 1 says so. The same bytes for the same values.
+///
+/// # Errors
+/// As [`encode_png`].
+pub fn encode_png_values(size: UVec2, values: &[f32]) -> Result<Vec<u8>, Fault> {
+    check_length(size, values.len())?;
+    // A NaN has passed the clamp and becomes 0 here.
+    let code = |value: &f32| (f64::from(value.clamp(0.0, 1.0)) * 65535.0 + 0.5) as u16;
+    let codes: Vec<u8> = values.iter().flat_map(|value| code(value).to_be_bytes()).collect();
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, size.x, size.y);
+    encoder.set_color(ColorType::Grayscale);
+    encoder.set_depth(BitDepth::Sixteen);
+    encoder.set_source_gamma(png::ScaledFloat::new(1.0));
+    write_codes(encoder, size, &codes)?;
+    Ok(bytes)
+}
+
 /// Writes [`encode_png`]'s bytes, as a whole or not at all.
 ///
 /// # Errors
@@ -129,6 +148,28 @@ pub fn encode_exr(size: UVec2, linear_rgb: &[Vec3]) -> Result<Vec<u8>, Fault> {
     Ok(bytes.into_inner())
 }
 
+/// An EXR file's bytes of a quantity: one channel Y of 32-bit floats, ZIP; the same bytes for the same values.
+///
+/// # Errors
+/// As [`encode_png`].
+pub fn encode_exr_values(size: UVec2, values: &[f32]) -> Result<Vec<u8>, Fault> {
+    use exr::WritableImage;
+    check_length(size, values.len())?;
+    let samples = exr::FlatSamples::F32(values.to_vec());
+    let channels = exr::AnyChannels::sort(vec![exr::AnyChannel::new("Y", samples)].into());
+    let encoding = exr::Encoding {
+        compression: exr::Compression::ZIP16,
+        blocks: exr::Blocks::ScanLines,
+        line_order: exr::LineOrder::Increasing,
+    };
+    let layer =
+        exr::Layer::new((size.x as usize, size.y as usize), exr::LayerAttributes::default(), encoding, channels);
+    let mut bytes = Cursor::new(Vec::new());
+    let written = exr::Image::from_layer(layer).write().non_parallel().to_buffered(&mut bytes);
+    written.map_err(|error| Fault::new("picture", format!("{} x {}", size.x, size.y), error))?;
+    Ok(bytes.into_inner())
+}
+
 /// Writes [`encode_exr`]'s bytes, as a whole or not at all.
 ///
 /// # Errors
@@ -164,9 +205,13 @@ fn encode(size: UVec2, codes: &[u8], colour: ColorType) -> Result<Vec<u8>, Fault
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, size.x, size.y);
     encoder.set_color(colour);
+    write_codes(encoder, size, codes)?;
+    Ok(bytes)
+}
+
+fn write_codes(mut encoder: png::Encoder<'_, &mut Vec<u8>>, size: UVec2, codes: &[u8]) -> Result<(), Fault> {
     encoder.set_compression(png::Compression::Balanced);
     encoder.set_filter(png::Filter::Adaptive);
     let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(codes));
-    written.map_err(|error| Fault::new("picture", format!("{} x {}", size.x, size.y), error))?;
-    Ok(bytes)
+    written.map_err(|error| Fault::new("picture", format!("{} x {}", size.x, size.y), error))
 }

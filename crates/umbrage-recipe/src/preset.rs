@@ -56,6 +56,22 @@ impl PresetName {
         }
     }
 
+    /// What it does, in a few words for a list.
+    #[must_use]
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::Auto => "facets and two planes, without a bias: the default",
+            Self::Williams78 => "point by point (Williams 1978)",
+            Self::Reeves87 => "percentage closer, biases of a range (Reeves, Salesin & Cook 1987)",
+            Self::Reeves87Recommended => "the same with the numbers that the paper's text advises",
+            Self::Woo92 => "percentage closer without a bias, over midpoints (Woo 1992)",
+            Self::WangMolnar94 => "second surfaces, and tangent planes where texels disagree (Wang & Molnar 1994)",
+            Self::Burley => "soft shadows with the bias cone (Burley 2006)",
+            Self::Fernando => "soft shadows with a plain mean and a constant bias (Fernando 2005)",
+            Self::Ordinary => "depths filtered before they are compared: how it is not done",
+        }
+    }
+
     /// The one with this [`name`](Self::name); `None` for any other text.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {

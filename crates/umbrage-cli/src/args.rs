@@ -1,0 +1,235 @@
+//! The command line.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use glam::UVec2;
+use std::path::PathBuf;
+use umbrage_depth::Storage;
+
+/// Shadows of your own scenes: maps that need no bias, and what rays say beside them
+#[derive(Parser)]
+#[command(name = "umbrage", bin_name = "umbrage", version, propagate_version = true, max_term_width = 100)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+    /// Worker threads, one for each core unless given; changes no result
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Seed of all randomness
+    #[arg(long, global = true, value_name = "N", default_value_t = 0)]
+    pub seed: u32,
+    /// Print what was done as JSON on stdout
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// Print nothing but errors
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Also say what was left alone and why
+    #[arg(short, long, global = true)]
+    pub verbose: bool,
+    /// Most memory that may be asked for, such as 2GiB; 4 GiB or half of what there is unless given
+    #[arg(long, global = true, value_name = "SIZE", value_parser = crate::memory::parse)]
+    pub max_memory: Option<u64>,
+}
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// Draw the lit picture of a scene
+    #[command(after_help = "Examples:
+  umbrage render gallery:contact-box -o box.png
+  umbrage render gallery:spot-room --recipe woo92 --map-size 256 -o room.exr")]
+    Render(RenderArgs),
+    /// Draw the fraction in shadow alone, one picture for each light
+    #[command(after_help = "Examples:
+  umbrage shadow gallery:contact-box -o shadows
+  umbrage shadow gallery:three-lights --truth --format exr -o truth")]
+    Shadow(ShadowArgs),
+    /// Write the shadow map of each light
+    #[command(after_help = "Examples:
+  umbrage bake gallery:contact-box -o maps
+  umbrage bake gallery:plant --rule deep --map-size 1024 -o maps")]
+    Bake(BakeArgs),
+    /// Say what a shadow map holds
+    #[command(after_help = "Examples:
+  umbrage info maps/contact-box.exr
+  umbrage info maps/contact-box.exr --picture depths.png")]
+    Info(InfoArgs),
+    /// Look points up in a shadow map: a line of numbers in, a fraction out
+    #[command(
+        after_help = "A line is x y z nx ny nz [ux uy uz vx vy vz]: position and normal in world space, and the full edges of the
+footprint; commas or blanks part them. A first line of names is skipped.
+
+Examples:
+  echo '0 0 0 0 1 0' | umbrage lookup maps/contact-box.exr
+  umbrage lookup maps/contact-box.exr --recipe auto --keep-going < points.csv > fractions.txt"
+    )]
+    Lookup(LookupArgs),
+    /// List the algorithms by name, or the parameters of one
+    #[command(after_help = "Examples:
+  umbrage recipes
+  umbrage recipes woo92")]
+    Recipes(RecipesArgs),
+    /// List the scenes that are built in
+    #[command(after_help = "Examples:
+  umbrage scenes
+  umbrage scenes --json")]
+    Scenes,
+    /// Write manual pages or shell completions
+    #[command(hide = true)]
+    Generate(GenerateArgs),
+}
+
+/// A scene, and how it is seen.
+#[derive(Args)]
+pub struct SceneArgs {
+    /// `gallery:NAME`, a scene that is built in (`umbrage scenes` lists them)
+    #[arg(value_name = "SCENE")]
+    pub scene: String,
+    /// Columns and rows of the picture; the vertical angle of view is kept
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<UVec2>,
+    /// Side of each light's map, texels
+    #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(1..=16384))]
+    pub map_size: u32,
+    /// The algorithm: text such as `woo92,samples=32`, or a TOML file; each light's own, or else auto, unless given
+    #[arg(long, value_name = "R")]
+    pub recipe: Option<String>,
+    /// Only these lights
+    #[arg(long, value_name = "NAME", num_args = 1..)]
+    pub light: Vec<String>,
+    /// Key of randomness; another number, other noise
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub frame: u32,
+}
+
+#[derive(Args)]
+pub struct RenderArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// The picture: .png (sRGB) or .exr (linear)
+    #[arg(short, long, value_name = "IMAGE")]
+    pub output: PathBuf,
+    /// Samples for each pixel: 1 (its centre), 4, 16 or 64
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = samples)]
+    pub samples: u32,
+}
+
+#[derive(Args)]
+pub struct ShadowArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// The folder that is filled
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+    /// Samples for each pixel: 1 (its centre), 4, 16 or 64; 1 unless given, with --truth 64
+    #[arg(long, value_name = "N", value_parser = samples)]
+    pub samples: Option<u32>,
+    /// 16-bit linear grey, or 32-bit floats
+    #[arg(long, value_enum, default_value_t = Format::Png)]
+    pub format: Format,
+    /// Where maps lie: as the light says, or about what the camera sees
+    #[arg(long, value_enum, default_value_t = WindowArg::File)]
+    pub window: WindowArg,
+    /// Radius of every light, world units (of a sun: tangent of its angle); shadows become soft
+    #[arg(long, value_name = "RADIUS", value_parser = radius)]
+    pub area: Option<f32>,
+    /// Cast rays instead of asking maps
+    #[arg(long)]
+    pub truth: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    Png,
+    Exr,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum WindowArg {
+    File,
+    Fitted,
+}
+
+#[derive(Args)]
+pub struct BakeArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// The folder that is filled
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+    /// What each texel keeps
+    #[arg(long, value_enum, default_value_t = RuleArg::Facets)]
+    pub rule: RuleArg,
+    /// How maps of one depth per texel are kept: raw files hold every texel, bbox files the rectangle around all surfaces
+    #[arg(long, value_name = "raw|bbox|tiled", default_value = "raw")]
+    pub storage: Storage,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum RuleArg {
+    First,
+    Second,
+    BackFace,
+    Midpoint,
+    Facets,
+    Deep,
+}
+
+#[derive(Args)]
+pub struct InfoArgs {
+    /// The map
+    #[arg(value_name = "MAP.exr")]
+    pub map: PathBuf,
+    /// Also draw its depths in grey, near is bright
+    #[arg(long, value_name = "IMAGE.png")]
+    pub picture: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub struct LookupArgs {
+    /// The map
+    #[arg(value_name = "MAP.exr")]
+    pub map: PathBuf,
+    /// The algorithm; unless given, the one that the map was made for
+    #[arg(long, value_name = "R")]
+    pub recipe: Option<String>,
+    /// Print NaN for a line that cannot be read, and go on
+    #[arg(long)]
+    pub keep_going: bool,
+}
+
+#[derive(Args)]
+pub struct RecipesArgs {
+    /// The algorithm whose parameters are listed
+    #[arg(value_name = "NAME")]
+    pub name: Option<String>,
+}
+
+#[derive(Args)]
+pub struct GenerateArgs {
+    #[arg(value_enum)]
+    pub what: What,
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum What {
+    Man,
+    Completions,
+}
+
+fn size(text: &str) -> Result<UVec2, String> {
+    let side = |text: &str| text.parse::<u32>().ok().filter(|side| (1..=16384).contains(side));
+    let sides = text.split_once('x').and_then(|(width, height)| Some(UVec2::new(side(width)?, side(height)?)));
+    sides.ok_or_else(|| "expected WIDTHxHEIGHT, each from 1 to 16384".into())
+}
+
+fn samples(text: &str) -> Result<u32, String> {
+    let number = text.parse().ok().filter(|number| [1, 4, 16, 64].contains(number));
+    number.ok_or_else(|| "expected 1, 4, 16 or 64".into())
+}
+
+fn radius(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|number: &f32| number.is_finite() && *number > 0.0);
+    number.ok_or_else(|| "expected a finite number above 0".into())
+}

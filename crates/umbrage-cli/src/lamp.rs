@@ -1,0 +1,20 @@
+//! A light's shadow.
+
+use crate::stage::{Lamp, Stage};
+use anyhow::Context;
+use umbrage_depth::Storage;
+use umbrage_recipe::{LightShadow, LightUse, Recipe};
+use umbrage_render::{Soup, receivers};
+
+/// All of pass 1 of a light, and the algorithm over it.
+///
+/// # Errors
+/// A recipe that cannot be used for the light, with the light's name.
+pub fn shadow_of(stage: &Stage, lamp: &Lamp, recipe: &Recipe) -> anyhow::Result<LightShadow> {
+    let scene = &stage.scene;
+    let light = &scene.lights[lamp.light];
+    let seen = recipe.is_fitted().then(|| receivers(scene, &light.view));
+    let with = LightUse { storage: Storage::Tiled, receivers: seen.as_deref(), moments: 1 };
+    let shadow = recipe.shadow_of(&lamp.views, &with, |view, _| Soup::casters(scene, view).into_casting());
+    shadow.with_context(|| format!("light {:?}", light.name))
+}

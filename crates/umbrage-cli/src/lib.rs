@@ -1,0 +1,120 @@
+//! The `umbrage` command as a function, so that tests can call it: [`run`].
+//!
+//! Each command is a few calls that a user of the libraries could make.
+
+mod args;
+mod bake;
+mod generate;
+mod info;
+mod lamp;
+mod listing;
+mod lookup;
+mod memory;
+mod names;
+mod render;
+mod shadow;
+mod stage;
+
+use args::{Cli, Command};
+use clap::Parser;
+use std::ffi::OsString;
+use std::io::{BufRead, ErrorKind, Write};
+
+/// What a command reads and writes beside files.
+pub(crate) struct Shell<'a> {
+    pub input: &'a mut dyn BufRead,
+    /// Data.
+    pub out: &'a mut dyn Write,
+    /// What people read.
+    pub err: &'a mut dyn Write,
+    /// `-q`: nothing but errors.
+    pub quiet: bool,
+    /// `-v`: also what was left alone.
+    pub verbose: bool,
+}
+
+impl Shell<'_> {
+    /// A line for people, unless they want none. Where it cannot be written there is nobody to tell.
+    pub fn note(&mut self, line: &str) {
+        if !self.quiet {
+            let _ = writeln!(self.err, "{line}");
+        }
+    }
+}
+
+/// What was asked for cannot be had: exit code 2, as for any other command line that makes no sense.
+#[derive(Debug)]
+pub(crate) struct Usage(pub String);
+
+impl std::fmt::Display for Usage {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Usage {}
+
+/// Runs a command line, the program's name first, and returns its exit code: 0 for success, 1 for a failure, 2 for a command line that makes no
+/// sense. Every failure is one line on `err`.
+pub fn run(
+    args: impl IntoIterator<Item = OsString>,
+    input: &mut dyn BufRead,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
+) -> u8 {
+    let cli = match Cli::try_parse_from(args) {
+        Ok(cli) => cli,
+        Err(error) => {
+            let text = error.render();
+            if error.use_stderr() {
+                let _ = write!(err, "{text}");
+                return 2;
+            }
+            let _ = write!(out, "{text}");
+            return 0;
+        }
+    };
+    let mut shell = Shell { input, out, err, quiet: cli.quiet, verbose: cli.verbose };
+    let done = with_threads(cli.threads.map(usize::from), &mut shell, |shell| command(&cli, shell));
+    match done {
+        Ok(()) => 0,
+        Err(error) if is_closed(&error) => 0,
+        Err(error) => {
+            let line = format!("{error:#}").replace(['\n', '\r'], " ");
+            let _ = writeln!(err, "error: {line}");
+            if error.is::<Usage>() { 2 } else { 1 }
+        }
+    }
+}
+
+fn command(cli: &Cli, shell: &mut Shell<'_>) -> anyhow::Result<()> {
+    match &cli.command {
+        Command::Render(args) => render::run(cli, args, shell),
+        Command::Shadow(args) => shadow::run(cli, args, shell),
+        Command::Bake(args) => bake::run(cli, args, shell),
+        Command::Info(args) => info::run(cli, args, shell),
+        Command::Lookup(args) => lookup::run(cli, args, shell),
+        Command::Recipes(args) => listing::recipes(cli, args, shell),
+        Command::Scenes => listing::scenes(cli, shell),
+        Command::Generate(args) => generate::run(args),
+    }
+}
+
+/// Calls `work` on so many threads; no result depends on their number.
+fn with_threads(
+    threads: Option<usize>,
+    shell: &mut Shell<'_>,
+    work: impl FnOnce(&mut Shell<'_>) -> anyhow::Result<()>,
+) -> anyhow::Result<()> {
+    if let Some(threads) = threads {
+        // Another pool may be there already in a program that calls this function twice.
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+    }
+    work(shell)
+}
+
+/// Whether whoever read what was written has gone away.
+fn is_closed(error: &anyhow::Error) -> bool {
+    let closed = |cause: &std::io::Error| cause.kind() == ErrorKind::BrokenPipe;
+    error.chain().any(|cause| cause.downcast_ref::<std::io::Error>().is_some_and(closed))
+}

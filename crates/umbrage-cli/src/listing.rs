@@ -1,0 +1,58 @@
+//! `umbrage recipes` and `umbrage scenes`.
+
+use crate::args::{Cli, RecipesArgs};
+use crate::{Shell, Usage};
+use serde_json::{Value, json};
+use umbrage_recipe::{Field, PresetName, Recipe, help};
+use umbrage_scene::gallery;
+
+pub fn scenes(cli: &Cli, shell: &mut Shell<'_>) -> anyhow::Result<()> {
+    let names: Vec<String> = gallery::ALL.iter().map(|(name, _)| format!("gallery:{name}")).collect();
+    if cli.json {
+        writeln!(shell.out, "{}", json!(names))?;
+        return Ok(());
+    }
+    for name in names {
+        writeln!(shell.out, "{name}")?;
+    }
+    Ok(())
+}
+
+pub fn recipes(cli: &Cli, args: &RecipesArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {
+    let chosen = match &args.name {
+        None => PresetName::ALL.to_vec(),
+        Some(name) => match PresetName::named(name) {
+            Some(preset) => vec![preset],
+            None => {
+                let known = PresetName::ALL.map(PresetName::name).join(", ");
+                return Err(Usage(format!("recipe {name:?}: expected one of {known}")).into());
+            }
+        },
+    };
+    if cli.json {
+        let presets: Vec<Value> = chosen.into_iter().map(described).collect();
+        writeln!(shell.out, "{}", json!(presets))?;
+    } else if args.name.is_some() {
+        for preset in chosen {
+            write!(shell.out, "{}: {}\n\n{}", preset.name(), preset.about(), help(preset))?;
+        }
+    } else {
+        for preset in chosen {
+            writeln!(shell.out, "{:20} {}", preset.name(), preset.about())?;
+        }
+    }
+    Ok(())
+}
+
+fn described(preset: PresetName) -> Value {
+    let field = |field: &Field| {
+        json!({
+            "name": field.name, "values": field.kind.to_string(), "default": field.default(preset),
+            "about": field.doc, "source": field.source,
+        })
+    };
+    json!({
+        "name": preset.name(), "about": preset.about(), "stored": Recipe::from(preset).stored().name(),
+        "fields": Field::of(preset).map(field).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,76 @@
+//! How much memory a command may ask for, and how much it will: a formula that a user can compute.
+
+use anyhow::bail;
+use glam::UVec2;
+
+const MIB: u64 = 1 << 20;
+const GIB: u64 = 1 << 30;
+
+/// What every command may take.
+const BASE: u64 = 64 * MIB;
+/// Bytes for each byte of a file that is read.
+const PER_FILE_BYTE: u64 = 8;
+/// Bytes for each sample of a picture, and for each of its pixels.
+const PER_SAMPLE: u64 = 64;
+const PER_PIXEL: u64 = 512;
+/// Bytes for each triangle.
+const PER_TRIANGLE: u64 = 1024;
+/// Bytes for each texel of each map.
+const PER_TEXEL: u64 = 64;
+
+/// What a command is about to hold.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Need {
+    pub file_bytes: u64,
+    pub picture: UVec2,
+    pub samples: u32,
+    pub triangles: u64,
+    pub texels: u64,
+}
+
+impl Need {
+    /// 64 MiB + 8 × the file + 512 bytes for each pixel + 64 for each sample + 1024 for each triangle + 64 for each texel of a map.
+    pub fn bytes(&self) -> u64 {
+        let pixels = u64::from(self.picture.x) * u64::from(self.picture.y);
+        let picture = pixels.saturating_mul(PER_PIXEL + PER_SAMPLE * u64::from(self.samples));
+        BASE.saturating_add(self.file_bytes.saturating_mul(PER_FILE_BYTE))
+            .saturating_add(picture)
+            .saturating_add(self.triangles.saturating_mul(PER_TRIANGLE))
+            .saturating_add(self.texels.saturating_mul(PER_TEXEL))
+    }
+
+    /// Nothing, if so much may be held.
+    ///
+    /// # Errors
+    /// One line that names both numbers.
+    pub fn check(&self, most: Option<u64>) -> anyhow::Result<()> {
+        let (needed, most) = (self.bytes(), most.unwrap_or_else(default));
+        if needed > most {
+            bail!("memory: {} MiB may be needed, more than --max-memory {} MiB", needed.div_ceil(MIB), most / MIB);
+        }
+        Ok(())
+    }
+}
+
+/// 4 GiB, or half of the machine's memory where that is less.
+fn default() -> u64 {
+    let total = std::fs::read_to_string("/proc/meminfo").ok().and_then(|text| {
+        let line = text.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
+        line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()
+    });
+    total.map_or(4 * GIB, |kib| (kib * 512).min(4 * GIB))
+}
+
+/// A number of bytes, with a unit or without.
+pub fn parse(text: &str) -> Result<u64, String> {
+    let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    let unit = match text[digits.len()..].to_ascii_lowercase().as_str() {
+        "" | "b" => 1,
+        "k" | "kb" | "kib" => 1 << 10,
+        "m" | "mb" | "mib" => MIB,
+        "g" | "gb" | "gib" => GIB,
+        _ => return Err("expected a number of bytes, or one with KiB, MiB or GiB".into()),
+    };
+    let number = digits.trim().parse::<u64>().ok().and_then(|number| number.checked_mul(unit));
+    number.ok_or_else(|| "expected a whole number of bytes, or one with KiB, MiB or GiB".into())
+}

@@ -1,0 +1,46 @@
+//! `umbrage render`.
+
+use crate::args::{Cli, RenderArgs};
+use crate::shadow::{frame, report};
+use crate::stage::Stage;
+use crate::{Shell, Usage, lamp};
+use std::time::Instant;
+use umbrage_io::{write_exr, write_png};
+use umbrage_render::picture;
+use umbrage_shadow::{Shadow, Unshadowed};
+
+pub fn run(cli: &Cli, args: &RenderArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {
+    let extension = args.output.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
+    let write = match extension.as_deref() {
+        Some("png") => write_png,
+        Some("exr") => write_exr,
+        _ => return Err(Usage(format!("--output {}: expected .png or .exr", args.output.display())).into()),
+    };
+    let mut stage = Stage::new(&args.scene, cli.max_memory, args.samples, shell)?;
+    // A light that is not wanted is out.
+    if !args.scene.light.is_empty() {
+        let wanted: Vec<usize> = stage.lamps.iter().map(|lamp| lamp.light).collect();
+        let mut index = 0..;
+        stage.scene.lights.retain(|_| index.next().is_some_and(|index| wanted.contains(&index)));
+        stage.lamps.iter_mut().zip(0..).for_each(|(lamp, light)| lamp.light = light);
+    }
+    let start = Instant::now();
+    let made = stage.lamps.iter().map(|lamp| lamp::shadow_of(&stage, lamp, &stage.recipe_of(lamp)?));
+    let made = made.collect::<anyhow::Result<Vec<_>>>()?;
+    let baked = start.elapsed();
+    let shadows: Vec<&dyn Shadow> = (0..stage.scene.lights.len())
+        .map(|light| match stage.lamps.iter().position(|lamp| lamp.light == light) {
+            Some(index) => &*made[index].shadow,
+            None => &Unshadowed as &dyn Shadow,
+        })
+        .collect();
+    let start = Instant::now();
+    let image = picture(&stage.scene, &shadows, &frame(args.samples, cli.seed, args.scene.frame));
+    let drawn = start.elapsed();
+    write(&args.output, image.size, &image.colour)?;
+    let lines = stage.lamps.iter().zip(&made).map(|(lamp, made)| {
+        let recipe = stage.recipe_of(lamp).map_or_else(|_| String::new(), |recipe| recipe.to_string());
+        (lamp.name.clone(), recipe, made.maps.iter().map(|map| map.bytes).sum(), baked, drawn)
+    });
+    report(cli, shell, &[args.output.clone()], lines)
+}

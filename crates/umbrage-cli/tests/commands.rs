@@ -1,0 +1,380 @@
+//! Every command as a user would type it.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use umbrage_io::{decode_png, read_map};
+
+/// What a command line gave.
+struct Ran {
+    code: u8,
+    out: String,
+    err: String,
+}
+
+fn run_with(input: &str, args: &[&str]) -> Ran {
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let args = std::iter::once("umbrage").chain(args.iter().copied()).map(Into::into);
+    let code = umbrage_cli::run(args, &mut input.as_bytes(), &mut out, &mut err);
+    let text = |bytes| String::from_utf8(bytes).expect("text");
+    Ran { code, out: text(out), err: text(err) }
+}
+
+fn run(args: &[&str]) -> Ran {
+    run_with("", args)
+}
+
+/// Runs what must succeed.
+fn good(args: &[&str]) -> Ran {
+    let ran = run(args);
+    assert_eq!(ran.code, 0, "{args:?}: {}", ran.err);
+    ran
+}
+
+/// The one line of a failure.
+fn refused(code: u8, args: &[&str]) -> String {
+    let ran = run(args);
+    assert_eq!(ran.code, code, "{args:?}: {}", ran.err);
+    assert_eq!(ran.err.lines().count(), 1, "{args:?}: {}", ran.err);
+    ran.err.trim_end().to_owned()
+}
+
+/// An empty folder of a test's own.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().expect("a path of text")
+}
+
+fn files(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = std::fs::read_dir(folder)
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").file_name().into_string().expect("text"))
+        .collect();
+    names.sort();
+    names
+}
+
+/// Values of a 16-bit picture, rounded to 8 bits as the reader does.
+fn values(path: &Path) -> Vec<f64> {
+    let codes = decode_png(&std::fs::read(path).expect("a file")).expect("a picture");
+    codes.rgb.iter().map(|rgb| f64::from(rgb[0]) / 255.0).collect()
+}
+
+#[test]
+fn shadows_are_what_rays_say() {
+    for (scene, name) in [("gallery:contact-box", "contact-box.png"), ("gallery:spot-room", "spot-room.png")] {
+        let (own, truth) = (folder("shadow-own"), folder("shadow-truth"));
+        good(&["shadow", scene, "-o", text(&own), "--size", "160x120", "--map-size", "256", "--samples", "16"]);
+        good(&["shadow", scene, "-o", text(&truth), "--size", "160x120", "--truth"]);
+        let (own, truth) = (values(&own.join(name)), values(&truth.join(name)));
+        let squares: f64 = own.iter().zip(&truth).map(|(a, b)| (a - b).powi(2)).sum();
+        let rms = (squares / own.len() as f64).sqrt();
+        assert!(rms < 0.03, "{scene}: {rms}");
+        assert!(truth.iter().any(|fraction| *fraction == 1.0) && truth.contains(&0.0), "{scene}: both are seen");
+    }
+}
+
+#[test]
+fn what_turns_away_from_the_light_is_dark_and_nothing_is_lit() {
+    let out = folder("shadow-turned");
+    good(&["shadow", "gallery:spot-room", "-o", text(&out), "--size", "64x48", "--format", "exr"]);
+    assert_eq!(files(&out), ["spot-room.exr"]);
+    // A recipe that lights everything still leaves the side of each thing that is turned away dark.
+    let lit = "reeves87,bias=1000000w";
+    good(&["shadow", "gallery:spot-room", "-o", text(&out), "--size", "64x48", "--recipe", lit]);
+    let found = values(&out.join("spot-room.png"));
+    let dark = found.iter().filter(|fraction| **fraction == 1.0).count();
+    assert!(dark > 50 && dark < found.len() / 2, "{dark} of {} pixels", found.len());
+}
+
+#[test]
+fn each_light_has_its_file() {
+    let out = folder("shadow-lights");
+    let ran =
+        good(&["shadow", "gallery:three-lights", "-o", text(&out), "--size", "40x30", "--map-size", "64", "--json"]);
+    assert_eq!(files(&out), ["three-lights.blue.png", "three-lights.green.png", "three-lights.red.png"]);
+    let json: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(json["files"].as_array().map(Vec::len), Some(3));
+    assert_eq!(json["lights"][0]["recipe"], "auto");
+    assert!(json["lights"][2]["bytes"].as_u64().is_some_and(|bytes| bytes > 100));
+    assert!(ran.err.lines().last().is_some_and(|line| line.contains("bytes, baked in")), "{}", ran.err);
+
+    let one = folder("shadow-one-light");
+    good(&["shadow", "gallery:three-lights", "-o", text(&one), "--size", "40x30", "--light", "red", "-q"]);
+    assert_eq!(files(&one), ["three-lights.red.png"]);
+    let error = refused(2, &["shadow", "gallery:three-lights", "-o", text(&one), "--light", "mauve"]);
+    assert!(error.starts_with("error: --light \"mauve\": the lights that cast shadows are "), "{error}");
+}
+
+#[test]
+fn pictures_have_the_size_that_is_asked_for() {
+    let out = folder("render");
+    for (name, size) in [("a.png", (96, 64)), ("b.png", (33, 77))] {
+        let path = out.join(name);
+        let size_text = format!("{}x{}", size.0, size.1);
+        good(&["render", "gallery:contact-box", "-o", text(&path), "--size", &size_text, "--samples", "4"]);
+        let codes = decode_png(&std::fs::read(&path).expect("a file")).expect("a picture");
+        assert_eq!((codes.size.x, codes.size.y), size);
+    }
+    let exr = out.join("c.exr");
+    good(&["render", "gallery:table", "-o", text(&exr), "--size", "32x32", "--recipe", "woo92", "--samples", "1"]);
+    assert!(std::fs::read(exr).expect("a file").starts_with(&[0x76, 0x2f, 0x31, 0x01]));
+}
+
+#[test]
+fn seeds_and_frames_are_keys_of_randomness() {
+    let out = folder("seeds");
+    let drawn = |more: &[&str]| {
+        let path = out.join("a.png");
+        let mut args = vec!["render", "gallery:contact-box", "-o", text(&path), "--size", "48x48", "--recipe", "woo92"];
+        args.extend(more);
+        good(&args);
+        std::fs::read(&path).expect("a file")
+    };
+    assert_eq!(drawn(&[]), drawn(&["--seed", "0", "--frame", "0"]));
+    assert_ne!(drawn(&[]), drawn(&["--seed", "1"]));
+    assert_ne!(drawn(&[]), drawn(&["--frame", "1"]));
+}
+
+#[test]
+fn maps_are_baked_described_and_looked_up() {
+    for (rule, keeps, recipe) in [
+        ("facets", "facets, ", "recipe: auto (the map holds facets)"),
+        ("first", "first surface", "recipe: reeves87 (the map holds first surfaces)"),
+        ("midpoint", "midpoint surface", "recipe: woo92 (the map holds midpoints)"),
+        ("back-face", "back-face surface", "recipe: wang-molnar94 (the map holds second surfaces)"),
+        ("deep", "all surfaces", "recipe: reeves87,stored=deep (the map holds all surfaces)"),
+    ] {
+        let out = folder(&format!("bake-{rule}"));
+        good(&["bake", "gallery:contact-box", "-o", text(&out), "--rule", rule, "--map-size", "96"]);
+        assert_eq!(files(&out), ["contact-box.exr"], "{rule}");
+        let map = out.join("contact-box.exr");
+        let told = good(&["info", text(&map)]).out;
+        assert!(told.contains("size      96 x 96 texels\n"), "{told}");
+        assert!(told.contains(&format!("keeps     {keeps}")), "{rule}: {told}");
+        // The middle of the box's base is dark, a place far from it lit.
+        let asked = run_with("0 0 0 0 1 0\n150,0,150,0,1,0\n", &["lookup", text(&map)]);
+        assert_eq!((asked.code, asked.err.trim_end()), (0, recipe), "{rule}");
+        assert_eq!(asked.out, "1.000000000\n0.000000000\n", "{rule}");
+    }
+}
+
+#[test]
+fn a_box_of_texels_is_the_same_map() {
+    let (raw, bbox) = (folder("bake-raw"), folder("bake-bbox"));
+    let bake = |out: &Path, storage: &str| {
+        good(&["bake", "gallery:contact-box", "-o", text(out), "--rule", "second", "--storage", storage, "-q"]);
+        out.join("contact-box.exr")
+    };
+    let (raw, bbox) = (bake(&raw, "raw"), bake(&bbox, "bbox"));
+    let depths = |path: &Path| umbrage_depth::Raw::copy_of(&read_map(path, 1 << 20).expect("a map")).depths().to_vec();
+    assert_eq!(depths(&raw), depths(&bbox));
+    let bytes = |path: &Path| std::fs::metadata(path).expect("a file").len();
+    assert!(bytes(&bbox) <= bytes(&raw));
+}
+
+#[test]
+fn a_map_is_drawn_and_described_as_json() {
+    let out = folder("info");
+    good(&["bake", "gallery:table", "-o", text(&out), "--map-size", "64", "-q"]);
+    let picture = out.join("depths.png");
+    let map = out.join("table.exr");
+    let ran = good(&["info", text(&map), "--picture", text(&picture), "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(json["size"], serde_json::json!([64, 64]));
+    assert!(json["bytes"]["raw"].as_u64() > json["bytes"]["bbox"].as_u64());
+    assert_eq!(decode_png(&std::fs::read(picture).expect("a file")).expect("a picture").size.x, 64);
+}
+
+/// A map of facets for look-ups.
+fn facets(name: &str) -> PathBuf {
+    let out = folder(name);
+    good(&["bake", "gallery:contact-box", "-o", text(&out), "--map-size", "64", "-q"]);
+    out.join("contact-box.exr")
+}
+
+#[test]
+fn lines_are_answered_in_their_order() {
+    let map = facets("lookup-order");
+    // More than one batch, a header, empty lines, and footprints.
+    let mut input = String::from("x,y,z,nx,ny,nz,ux,uy,uz,vx,vy,vz\n\n");
+    let mut expected = String::new();
+    for k in 0..10_000 {
+        let dark = k % 3 == 0;
+        let place = if dark { "0 0 0" } else { "150, 0, 150" };
+        let foot = if k % 2 == 0 { "" } else { " .1 0 0 0 0 .1" };
+        input += &format!("{place} 0 2.5 0{foot}\r\n");
+        expected += if dark { "1.000000000\n" } else { "0.000000000\n" };
+    }
+    let ran = run_with(&input, &["lookup", text(&map), "-q"]);
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""));
+    assert!(ran.out == expected);
+}
+
+#[test]
+fn a_bad_line_is_named_and_nothing_before_it_is_lost() {
+    let map = facets("lookup-bad");
+    let bad = [
+        ("0 0 0 0 one 0", "ny is one: expected a finite number"),
+        ("0 0 NaN 0 1 0", "z is NaN: expected a finite number"),
+        ("0 0 inf 0 1 0", "z is inf: expected a finite number"),
+        ("0 0 0 0 0 0", "nx ny nz is 0 0 0: expected a direction"),
+        ("0 0 0 0 1", "there are 5 numbers: expected x y z nx ny nz, and perhaps ux uy uz vx vy vz"),
+        ("1 2 3 4 5 6 7 8 9 10 11 12 13", "there are more than 12 numbers"),
+    ];
+    for (line, problem) in bad {
+        let input = format!("0 0 0 0 1 0\n150 0 150 0 1 0\n{line}\n0 0 0 0 1 0\n");
+        let ran = run_with(&input, &["lookup", text(&map), "-q"]);
+        assert_eq!((ran.code, ran.out.as_str()), (1, "1.000000000\n0.000000000\n"), "{line}");
+        assert_eq!(ran.err, format!("error: standard input: line 3: {problem}\n"));
+        let ran = run_with(&input, &["lookup", text(&map), "-q", "--keep-going"]);
+        assert_eq!((ran.code, ran.out.as_str()), (0, "1.000000000\n0.000000000\nNaN\n1.000000000\n"), "{line}");
+    }
+    let endless = format!("{}\n0 0 0 0 1 0\n", "1".repeat(100_000));
+    let ran = run_with(&endless, &["lookup", text(&map), "-q"]);
+    assert_eq!(ran.code, 1);
+    assert!(ran.err.contains("line 1: it is longer than"), "{}", ran.err);
+    let ran = run_with(&endless, &["lookup", text(&map), "-q", "--keep-going"]);
+    assert_eq!((ran.code, ran.out.as_str()), (0, "NaN\n1.000000000\n"));
+}
+
+#[test]
+fn what_cannot_be_read_is_one_line() {
+    let out = folder("bad-maps");
+    let map = out.join("not.exr");
+    let missing = refused(1, &["info", text(&map)]);
+    assert!(missing.starts_with(&format!("error: {}: cannot open", map.display())), "{missing}");
+    std::fs::write(&map, b"no picture at all").expect("a file");
+    assert!(refused(1, &["info", text(&map)]).starts_with(&format!("error: {}: ", map.display())));
+    assert!(refused(1, &["lookup", text(&map)]).starts_with(&format!("error: {}: ", map.display())));
+    let good_map = facets("bad-recipes");
+    let error = refused(1, &["lookup", text(&good_map), "--recipe", "woo92", "-q"]);
+    assert!(error.contains("map = \"first\": expected midpoint"), "{error}");
+}
+
+#[test]
+fn command_lines_that_make_no_sense_end_with_two() {
+    let out = folder("usage");
+    assert!(refused(2, &["shadow", "gallery:nowhere", "-o", text(&out)]).contains("gallery:nowhere is not known"));
+    assert!(refused(2, &["shadow", "scene.obj", "-o", text(&out)]).contains("\"scene.obj\""));
+    assert!(refused(2, &["render", "gallery:table", "-o", "table.jpg"]).contains("table.jpg: expected .png or .exr"));
+    let error = refused(2, &["shadow", "gallery:table", "-o", text(&out), "--recipe", "woo92,samples=0"]);
+    assert_eq!(error, "error: --recipe: samples = \"0\": expected a whole number from 1 to 65536");
+    assert!(refused(2, &["recipes", "nobody"]).contains("expected one of auto, "));
+    for args in [&["shadow"][..], &["draw"], &["render", "gallery:table", "-o", "a.png", "--samples", "5"]] {
+        assert_eq!(run(args).code, 2, "{args:?}");
+    }
+    assert_eq!(files(&out), [""; 0], "nothing was written");
+}
+
+#[test]
+fn recipes_come_from_files_too() {
+    let out = folder("recipes");
+    let file = out.join("mine.toml");
+    std::fs::write(&file, "preset = \"reeves87\"\nsamples = 4\n").expect("a file");
+    let shadow = |recipe: &str| {
+        good(&["shadow", "gallery:contact-box", "-o", text(&out), "--size", "48x48", "--recipe", recipe, "-q"]);
+        std::fs::read(out.join("contact-box.png")).expect("a file")
+    };
+    assert_eq!(shadow(text(&file)), shadow("reeves87,samples=4"));
+    std::fs::write(&file, "preset = \"reeves87\"\nsamples = \"many\"\n").expect("a file");
+    let error = refused(1, &["shadow", "gallery:table", "-o", text(&out), "--recipe", text(&file)]);
+    assert!(error.contains("mine.toml: samples = \"many\": expected a whole number"), "{error}");
+}
+
+#[test]
+fn memory_is_asked_for_before_it_is_taken() {
+    let out = folder("memory");
+    let args = ["shadow", "gallery:table", "-o", text(&out), "--map-size", "16384", "--max-memory", "100MiB"];
+    let error = refused(1, &args);
+    assert!(error.starts_with("error: memory: ") && error.ends_with("more than --max-memory 100 MiB"), "{error}");
+    let args = ["render", "gallery:table", "-o", "a.png", "--size", "16384x16384"];
+    assert!(refused(1, &args).contains("more than --max-memory"));
+    assert_eq!(run(&["scenes", "--max-memory", "much"]).code, 2);
+}
+
+#[test]
+fn lists_are_complete() {
+    let scenes = good(&["scenes"]).out;
+    assert!(scenes.lines().any(|line| line == "gallery:spot-room") && scenes.lines().count() > 50);
+    let recipes = good(&["recipes"]).out;
+    assert!(recipes.starts_with("auto ") && recipes.lines().count() == 9, "{recipes}");
+    let woo = good(&["recipes", "woo92"]).out;
+    assert!(woo.contains("samples= [16]: a whole number from 1 to 65536"), "{woo}");
+    let json: serde_json::Value = serde_json::from_str(&good(&["recipes", "--json"]).out).expect("JSON");
+    assert_eq!(json[0]["name"], "auto");
+    assert!(good(&["help"]).out.contains("Usage: umbrage"));
+    assert!(good(&["--version"]).out.starts_with("umbrage "));
+}
+
+#[test]
+fn pages_and_completions_are_written() {
+    let out = folder("generate");
+    good(&["generate", "man", text(&out)]);
+    good(&["generate", "completions", text(&out)]);
+    let names = files(&out);
+    for name in ["umbrage.1", "umbrage-shadow.1", "umbrage-lookup.1", "umbrage.bash", "_umbrage", "umbrage.fish"] {
+        assert!(names.iter().any(|known| known == name), "{name} is not among {names:?}");
+    }
+    assert!(!names.iter().any(|name| name.contains("generate")));
+}
+
+/// A reader that has gone away.
+struct Gone;
+
+impl Write for Gone {
+    fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+        Err(io::ErrorKind::BrokenPipe.into())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Err(io::ErrorKind::BrokenPipe.into())
+    }
+}
+
+/// A disk without room.
+struct Full;
+
+impl Write for Full {
+    fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+        Err(io::ErrorKind::StorageFull.into())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_failure_but_a_full_disk_is() {
+    let map = facets("gone");
+    for args in [&["scenes"][..], &["recipes"], &["recipes", "woo92"], &["info", text(&map)], &["lookup", text(&map)]] {
+        let run = |out: &mut dyn Write| {
+            let args = std::iter::once("umbrage").chain(args.iter().copied()).map(Into::into);
+            let (mut input, mut err) = ("0 0 0 0 1 0\n".as_bytes(), Vec::new());
+            (umbrage_cli::run(args, &mut input, out, &mut err), String::from_utf8(err).expect("text"))
+        };
+        assert_eq!(run(&mut Gone).0, 0, "{args:?}");
+        let (code, err) = run(&mut Full);
+        assert_eq!(code, 1, "{args:?}");
+        assert_eq!(err.lines().filter(|line| line.starts_with("error: ")).count(), 1, "{err}");
+    }
+}
+
+#[test]
+fn folders_that_cannot_be_made_are_named() {
+    let out = folder("taken");
+    let file = out.join("file");
+    std::fs::write(&file, b"in the way").expect("a file");
+    let error = refused(1, &["shadow", "gallery:table", "-o", text(&file), "--size", "16x16", "--map-size", "16"]);
+    assert!(error.starts_with(&format!("error: {}: cannot create", file.display())), "{error}");
+    let inside = file.join("a.png");
+    let error =
+        refused(1, &["render", "gallery:table", "-o", text(&inside), "--size", "16x16", "--map-size", "16", "-q"]);
+    assert!(error.starts_with(&format!("error: {}: cannot ", inside.display())), "{error}");
+}
