@@ -1,14 +1,15 @@
 //! `umbrage bake`.
 
 use crate::args::{BakeArgs, Cli, RuleArg};
+use crate::names;
 use crate::shadow::report;
+use crate::shell::{Shell, Usage};
 use crate::stage::Stage;
-use crate::{Shell, Usage, names};
 use anyhow::Context;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use umbrage_depth::{DepthMap, Map};
-use umbrage_io::{IoError, write_deep_map, write_facet_map, write_shadow_map};
+use umbrage_io::{IoError, create_folder, write_deep_map, write_facet_map, write_shadow_map};
 use umbrage_recipe::Recipe;
 use umbrage_render::light_map;
 
@@ -21,7 +22,7 @@ pub fn run(cli: &Cli, args: &BakeArgs, shell: &mut Shell<'_>) -> anyhow::Result<
     }
     let recipe: Recipe = recipe(args.rule).parse().context("--rule")?;
     let stage = Stage::new(&args.scene, cli.max_memory, 0, shell)?;
-    std::fs::create_dir_all(&args.output).with_context(|| format!("{}: cannot create", args.output.display()))?;
+    create_folder(&args.output)?;
     let (mut files, mut lines) = (Vec::new(), Vec::new());
     for lamp in &stage.lamps {
         let (mut bytes, mut baked, mut written) = (0, Duration::ZERO, Duration::ZERO);

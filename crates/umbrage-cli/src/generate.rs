@@ -4,11 +4,11 @@ use crate::args::{Cli, GenerateArgs, What};
 use anyhow::Context;
 use clap::{CommandFactory, ValueEnum};
 use clap_complete::Shell;
-use umbrage_io::write_bytes;
+use umbrage_io::{create_folder, write_bytes};
 
 pub fn run(args: &GenerateArgs) -> anyhow::Result<()> {
     let folder = &args.folder;
-    std::fs::create_dir_all(folder).with_context(|| format!("{}: cannot create", folder.display()))?;
+    create_folder(folder)?;
     let mut command = Cli::command();
     command.build();
     match args.what {

@@ -1,13 +1,13 @@
 //! `umbrage info`.
 
-use crate::Shell;
 use crate::args::{Cli, InfoArgs};
 use crate::memory::Need;
+use crate::shell::Shell;
 use anyhow::Context;
 use serde_json::json;
 use std::path::Path;
 use umbrage_depth::{DepthMap, Map, Storage};
-use umbrage_io::{depth_view, read_map, write_png_grey};
+use umbrage_io::{depth_view, file_bytes, read_map, write_png_grey};
 use umbrage_plane::{Projection, TexelRect};
 
 /// Most texels of a map that is read: 16384 × 16384.
@@ -18,7 +18,7 @@ const MOST_TEXELS: u64 = 1 << 28;
 /// # Errors
 /// One line with the file.
 pub fn read(path: &Path, max_memory: Option<u64>) -> anyhow::Result<Map> {
-    let file_bytes = std::fs::metadata(path).with_context(|| format!("{}: cannot open", path.display()))?.len();
+    let file_bytes = file_bytes(path)?;
     Need { file_bytes, ..Need::default() }.check(max_memory).with_context(|| path.display().to_string())?;
     Ok(read_map(path, MOST_TEXELS)?)
 }

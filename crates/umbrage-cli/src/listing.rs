@@ -1,7 +1,7 @@
 //! `umbrage recipes` and `umbrage scenes`.
 
 use crate::args::{Cli, RecipesArgs};
-use crate::{Shell, Usage};
+use crate::shell::{Shell, Usage};
 use serde_json::{Value, json};
 use umbrage_recipe::{Field, PresetName, Recipe, help};
 use umbrage_scene::gallery;
@@ -19,15 +19,13 @@ pub fn scenes(cli: &Cli, shell: &mut Shell<'_>) -> anyhow::Result<()> {
 }
 
 pub fn recipes(cli: &Cli, args: &RecipesArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {
+    let named = |name: &String| {
+        let known = || PresetName::ALL.map(PresetName::name).join(", ");
+        PresetName::named(name).ok_or_else(|| Usage(format!("recipe {name:?}: expected one of {}", known())))
+    };
     let chosen = match &args.name {
         None => PresetName::ALL.to_vec(),
-        Some(name) => match PresetName::named(name) {
-            Some(preset) => vec![preset],
-            None => {
-                let known = PresetName::ALL.map(PresetName::name).join(", ");
-                return Err(Usage(format!("recipe {name:?}: expected one of {known}")).into());
-            }
-        },
+        Some(name) => vec![named(name)?],
     };
     if cli.json {
         let presets: Vec<Value> = chosen.into_iter().map(described).collect();

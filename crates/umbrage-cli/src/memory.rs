@@ -2,6 +2,7 @@
 
 use anyhow::bail;
 use glam::UVec2;
+use umbrage_io::machine_memory;
 
 const MIB: u64 = 1 << 20;
 const GIB: u64 = 1 << 30;
@@ -54,11 +55,7 @@ impl Need {
 
 /// 4 GiB, or half of the machine's memory where that is less.
 fn default() -> u64 {
-    let total = std::fs::read_to_string("/proc/meminfo").ok().and_then(|text| {
-        let line = text.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
-        line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()
-    });
-    total.map_or(4 * GIB, |kib| (kib * 512).min(4 * GIB))
+    machine_memory().map_or(4 * GIB, |total| (total / 2).min(4 * GIB))
 }
 
 /// A number of bytes, with a unit or without.

@@ -1,9 +1,10 @@
 //! `umbrage render`.
 
 use crate::args::{Cli, RenderArgs};
+use crate::lamp;
 use crate::shadow::{frame, report};
+use crate::shell::{Shell, Usage};
 use crate::stage::Stage;
-use crate::{Shell, Usage, lamp};
 use std::time::Instant;
 use umbrage_io::{write_exr, write_png};
 use umbrage_render::picture;
@@ -42,5 +43,5 @@ pub fn run(cli: &Cli, args: &RenderArgs, shell: &mut Shell<'_>) -> anyhow::Resul
         let recipe = stage.recipe_of(lamp).map_or_else(|_| String::new(), |recipe| recipe.to_string());
         (lamp.name.clone(), recipe, made.maps.iter().map(|map| map.bytes).sum(), baked, drawn)
     });
-    report(cli, shell, &[args.output.clone()], lines)
+    report(cli, shell, std::slice::from_ref(&args.output), lines)
 }

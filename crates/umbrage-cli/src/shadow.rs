@@ -1,14 +1,15 @@
 //! `umbrage shadow`.
 
 use crate::args::{Cli, Format, ShadowArgs, WindowArg};
+use crate::shell::{Shell, Usage};
 use crate::stage::{Lamp, Stage};
-use crate::{Shell, Usage, lamp, names};
-use anyhow::Context;
+use crate::{lamp, names};
 use glam::{UVec2, Vec3};
 use serde_json::json;
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use umbrage_io::{IoError, encode_exr_values, encode_png_values, write_bytes};
+use umbrage_io::{IoError, create_folder, encode_exr_values, encode_png_values, write_bytes};
 use umbrage_oracle::{AreaLight, Geometry, RayCast, Truth};
 use umbrage_plane::{SurfacePoint, View};
 use umbrage_recipe::Recipe;
@@ -23,7 +24,7 @@ const AREA_RAYS: [u32; 2] = [4, 256];
 pub fn run(cli: &Cli, args: &ShadowArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {
     let samples = args.samples.unwrap_or(if args.truth { 64 } else { 1 });
     let stage = Stage::new(&args.scene, cli.max_memory, samples, shell)?;
-    std::fs::create_dir_all(&args.output).with_context(|| format!("{}: cannot create", args.output.display()))?;
+    create_folder(&args.output)?;
     let geometry = args.truth.then(|| Geometry::new(&stage.scene, &stage.scene.camera));
     let frame = frame(samples, cli.seed, args.scene.frame);
     let (mut files, mut lines) = (Vec::new(), Vec::new());
@@ -39,7 +40,7 @@ pub fn run(cli: &Cli, args: &ShadowArgs, shell: &mut Shell<'_>) -> anyhow::Resul
             let bytes = made.maps.iter().map(|map| map.bytes).sum();
             (drawn(&stage.scene, lamp, &*made.shadow, &frame), recipe.to_string(), bytes, baked)
         };
-        let looked_up = start.elapsed() - baked;
+        let looked_up = start.elapsed().saturating_sub(baked);
         let (extension, area) = (if args.format == Format::Png { "png" } else { "exr" }, args.area.map(|_| "area"));
         let path = names::file(&args.output, &stage.scene.name, stage.part(lamp), area.as_slice(), extension);
         write(&path, args.format, stage.scene.camera.size(), &fractions)?;
@@ -64,7 +65,7 @@ fn recipe(recipe: &Recipe, args: &ShadowArgs) -> anyhow::Result<Recipe> {
         text += ",window=fitted";
     }
     if let Some(radius) = args.area {
-        text += &format!(",light={radius}");
+        let _ = write!(text, ",light={radius}");
     }
     text.parse().map_err(|error| Usage(format!("recipe {text}: {error}")).into())
 }

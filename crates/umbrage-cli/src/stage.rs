@@ -2,10 +2,12 @@
 
 use crate::args::SceneArgs;
 use crate::memory::Need;
-use crate::{Shell, Usage, names};
-use anyhow::{Context, anyhow, bail};
+use crate::names;
+use crate::shell::{Shell, Usage};
+use anyhow::{Context, anyhow};
 use glam::{DVec2, UVec2};
 use std::path::Path;
+use umbrage_io::read_bytes;
 use umbrage_plane::{Projection, View, ViewError};
 use umbrage_recipe::Recipe;
 use umbrage_scene::{Scene, gallery};
@@ -134,13 +136,9 @@ pub fn recipe(text: &str) -> anyhow::Result<Recipe> {
     /// More than any table of fields.
     const MOST_BYTES: u64 = 1 << 20;
     let path = Path::new(text);
-    if !path.extension().is_some_and(|extension| extension == "toml") {
+    if path.extension().is_none_or(|extension| extension != "toml") {
         return text.parse().map_err(|error| anyhow!(Usage(format!("--recipe: {error}"))));
     }
-    let facts = std::fs::metadata(path).with_context(|| format!("{}: cannot open", path.display()))?;
-    if !facts.is_file() || facts.len() > MOST_BYTES {
-        bail!("{}: not a regular file of at most {MOST_BYTES} bytes", path.display());
-    }
-    let text = std::fs::read_to_string(path).with_context(|| format!("{}: cannot read", path.display()))?;
+    let text = String::from_utf8(read_bytes(path, MOST_BYTES)?).map_err(|_| anyhow!("{}: not text", path.display()))?;
     Recipe::from_toml(&text).with_context(|| path.display().to_string())
 }

@@ -1,7 +1,6 @@
 //! Names of files.
 
 #[path = "../src/names.rs"]
-#[allow(dead_code)]
 mod names;
 
 use names::{distinct, file, plain};

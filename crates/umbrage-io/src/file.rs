@@ -26,6 +26,29 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
     write_atomic(path, |file| file.write_all(bytes))
 }
 
+/// How long a file is, bytes.
+///
+/// # Errors
+/// [`IoError::System`].
+pub fn file_bytes(path: &Path) -> Result<u64, IoError> {
+    std::fs::metadata(path).map(|facts| facts.len()).map_err(system(path, "open"))
+}
+
+/// Creates a folder and those around it, where they do not exist.
+///
+/// # Errors
+/// [`IoError::System`].
+pub fn create_folder(path: &Path) -> Result<(), IoError> {
+    std::fs::create_dir_all(path).map_err(system(path, "create"))
+}
+
+/// All memory of the machine, bytes; `None` where the system does not say so in `/proc/meminfo`.
+pub fn machine_memory() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
+}
+
 /// A regular file and its length. Pipes and devices, which have no length to trust, are refused.
 pub(crate) fn open_regular(path: &Path) -> Result<(File, u64), IoError> {
     let regular = |facts: &Metadata| {
@@ -40,8 +63,11 @@ pub(crate) fn open_regular(path: &Path) -> Result<(File, u64), IoError> {
     Ok((file, facts.len()))
 }
 
-/// A regular file's bytes, `most_bytes` at most.
-pub(crate) fn read_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, IoError> {
+/// The bytes of a regular file, of at most `most_bytes`; pipes and devices, which have no length to trust, are refused.
+///
+/// # Errors
+/// [`IoError::System`], also for a file that is longer.
+pub fn read_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, IoError> {
     let (file, file_bytes) = open_regular(path)?;
     if file_bytes > most_bytes {
         let problem = format!("{file_bytes} bytes are more than {most_bytes}");

@@ -11,6 +11,7 @@
 //! * [`encode_png_values`], [`encode_exr_values`]: a quantity for each pixel, such as a fraction in shadow, without a curve.
 //! * [`read_map`]: whichever of these maps a file holds.
 //! * [`depth_view`] and [`replicate`]: a map as a grey picture, a zoom without invention.
+//! * [`read_bytes`], [`create_folder`] and [`file_bytes`]: files for those who open none themselves.
 //! * [`write_atomic`]: the one path on which all of these write. A killed run leaves no torn file.
 //!
 //! Files are not trusted: sizes are checked against the file's length and a budget before memory is taken, and every fault
@@ -47,7 +48,7 @@ pub use error::{Fault, IoError};
 pub use facet_map::{
     DEFAULT_FACET_BUDGET, decode_facet_map, encode_facet_map, read_facet_map, read_facet_map_within, write_facet_map,
 };
-pub use file::{write_atomic, write_bytes};
+pub use file::{create_folder, file_bytes, machine_memory, read_bytes, write_atomic, write_bytes};
 pub use paged::{Paged, PagedHandle};
 pub use picture::{
     Codes, decode_png, encode_exr, encode_exr_values, encode_png, encode_png_grey, encode_png_values, linear_to_srgb8,

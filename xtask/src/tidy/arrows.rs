@@ -87,6 +87,12 @@ const RULES: &[Rule] = &[
         tests: &[],
     },
     Rule { package: "umbrage-figures", arrows: FIGURES, outside: &["anyhow", "clap", "glam", "rayon"], tests: &[] },
+    Rule {
+        package: "umbrage-cli",
+        arrows: EVERY,
+        outside: &["anyhow", "clap", "clap_complete", "clap_mangen", "ctrlc", "glam", "rayon", "serde_json"],
+        tests: &[],
+    },
     Rule { package: "umbrage-bench", arrows: EVERY, outside: &[], tests: &["criterion", "glam"] },
     Rule { package: "umbrage-examples", arrows: EVERY, outside: &[], tests: &["glam"] },
     Rule { package: "xtask", arrows: &[], outside: &["anyhow", "proc-macro2", "toml"], tests: &[] },

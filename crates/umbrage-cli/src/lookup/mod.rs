@@ -3,7 +3,8 @@
 mod line;
 
 use crate::args::{Cli, LookupArgs};
-use crate::{Shell, info, stage};
+use crate::shell::Shell;
+use crate::{info, stage};
 use anyhow::{Context, bail};
 use line::{is_header, point};
 use std::io::{BufRead, Read};
@@ -21,13 +22,12 @@ const MOST_LINE: u64 = 4096;
 
 pub fn run(cli: &Cli, args: &LookupArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {
     let map = info::read(&args.map, cli.max_memory)?;
-    let recipe = match &args.recipe {
-        Some(text) => stage::recipe(text)?,
-        None => {
-            let (recipe, why) = own(&map);
-            shell.note(&format!("recipe: {recipe} ({why})"));
-            recipe
-        }
+    let recipe = if let Some(text) = &args.recipe {
+        stage::recipe(text)?
+    } else {
+        let (recipe, why) = own(&map);
+        shell.note(&format!("recipe: {recipe} ({why})"));
+        recipe
     };
     let shadow = recipe.bind(map, Storage::Tiled).with_context(|| args.map.display().to_string())?;
     let mut batch = Batch { shadow: &*shadow, key: Key::new(cli.seed, 0, 0), points: Vec::new(), lines: Vec::new() };
@@ -103,7 +103,7 @@ impl Batch<'_> {
         self.shadow.fractions(&self.points, self.key, &mut fractions);
         let mut fractions = fractions.into_iter();
         for is_point in self.lines.drain(..) {
-            match fractions.next().filter(|_| is_point) {
+            match if is_point { fractions.next() } else { None } {
                 Some(fraction) => writeln!(shell.out, "{fraction:.9}")?,
                 None => writeln!(shell.out, "NaN")?,
             }
