@@ -90,7 +90,8 @@ pub struct SceneArgs {
     /// Side of each light's map, texels
     #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(1..=16384))]
     pub map_size: u32,
-    /// The algorithm: text such as `woo92,samples=32`, or a TOML file; each light's own, or else auto, unless given
+    /// The algorithm: text such as `woo92,samples=32`, a TOML file, or RenderMan's words such as `rsl,samples=32,blur=0.01,bias=0.1`; each
+    /// light's own, or else auto, unless given
     #[arg(long, value_name = "R")]
     pub recipe: Option<String>,
     /// Only these lights

@@ -56,7 +56,7 @@ impl Stage {
         for light in &mut scene.lights {
             light.view = light.view.with_size(UVec2::splat(args.map_size)).context("--map-size")?;
         }
-        let recipe = args.recipe.as_deref().map(recipe).transpose()?;
+        let recipe = args.recipe.as_deref().map(|text| recipe(text, args.map_size)).transpose()?;
         let lamps = lamps(&scene, &args.light)?;
         let casting = scene.lights.iter().filter(|light| light.casts).count();
         let triangles = scene.objects.iter().map(|object| match &object.shape {
@@ -128,16 +128,20 @@ fn lamps(scene: &Scene, wanted: &[String]) -> anyhow::Result<Vec<Lamp>> {
     Ok(lamps.map(|(light, (of, name))| Lamp { light, name: name.clone(), views: vec![of.view] }).collect())
 }
 
-/// A recipe as it is written, or as a TOML file holds it.
+/// A recipe as it is written, or as a TOML file holds it; `rsl,` and the parameters of that language's `shadow()` are one for maps of `map_size` texels a side.
 ///
 /// # Errors
 /// What is wrong with it, after the file's name where it is one.
-pub fn recipe(text: &str) -> anyhow::Result<Recipe> {
+pub fn recipe(text: &str, map_size: u32) -> anyhow::Result<Recipe> {
     /// More than any table of fields.
     const MOST_BYTES: u64 = 1 << 20;
     let path = Path::new(text);
     if path.extension().is_none_or(|extension| extension != "toml") {
-        return text.parse().map_err(|error| anyhow!(Usage(format!("--recipe: {error}"))));
+        let read = match text.strip_prefix("rsl,") {
+            Some(parameters) => Recipe::from_rsl(parameters, map_size),
+            None => text.parse(),
+        };
+        return read.map_err(|error| Usage(format!("--recipe: {error}")).into());
     }
     let text = String::from_utf8(read_bytes(path, MOST_BYTES)?).map_err(|_| anyhow!("{}: not text", path.display()))?;
     Recipe::from_toml(&text).with_context(|| path.display().to_string())

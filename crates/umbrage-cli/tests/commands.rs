@@ -282,6 +282,7 @@ fn recipes_come_from_files_too() {
         std::fs::read(out.join("contact-box.png")).expect("a file")
     };
     assert_eq!(shadow(text(&file)), shadow("reeves87,samples=4"));
+    assert_eq!(shadow("rsl,samples=4,blur=0.01"), shadow("reeves87,samples=4,res-factor=1,min-size=2.56"));
     std::fs::write(&file, "preset = \"reeves87\"\nsamples = \"many\"\n").expect("a file");
     let error = refused(1, &["shadow", "gallery:table", "-o", text(&out), "--recipe", text(&file)]);
     assert!(error.contains("mine.toml: samples = \"many\": expected a whole number"), "{error}");

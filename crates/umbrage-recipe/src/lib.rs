@@ -25,6 +25,7 @@ mod kind;
 mod light;
 mod preset;
 mod recipe;
+mod rsl;
 mod table;
 #[cfg(test)]
 mod tests;

@@ -226,3 +226,34 @@ proptest! {
         prop_assert!(fields <= text.split(',').skip(1).count() + 2, "{} as {}", text, written);
     }
 }
+
+#[test]
+fn renderman_s_parameters_are_fields() {
+    let read =
+        |text: &str| Recipe::from_rsl(text, 512).map(|recipe| recipe.to_string()).map_err(|error| error.to_string());
+    for (text, expected) in [
+        ("", "reeves87,res-factor=1"),
+        ("samples=16", "reeves87,res-factor=1"),
+        ("swidth=2, twidth=2, minsamples=3", "reeves87,min-samples=3,res-factor=2"),
+        ("bias=0.5", "reeves87,res-factor=1,bias=0.5"),
+        ("bias0=0.1,bias1=0.2", "reeves87,res-factor=1,bias=0.1..0.2"),
+        ("bias1=0.2", "reeves87,res-factor=1,bias=0.2"),
+        ("blur=0.125", "reeves87,res-factor=1,min-size=32"),
+        ("depthfilter=\"midpoint\",midpointratio=0.25", "woo92,ratio=0.25,res-factor=1"),
+    ] {
+        assert_eq!(read(text).as_deref(), Ok(expected), "{text}");
+    }
+    for (text, expected) in [
+        ("samples", "samples = \"\": expected field=value"),
+        ("blurr=1", "parameter = \"blurr\": expected samples, minsamples, "),
+        ("blur=-1", "blur = \"-1\": expected a finite number from 0"),
+        ("blur=1,blur=2", "blur = \"2\": expected one value"),
+        ("swidth=1,twidth=2", "twidth = \"2\": expected 1, as swidth"),
+        ("bias=1,bias0=2", "bias = \"1\": expected none beside bias0 and bias1"),
+        ("depthfilter=average", "depthfilter = \"average\": expected min or midpoint"),
+        ("samples=0", "samples = \"0\": expected a whole number"),
+    ] {
+        let error = read(text).expect_err(text);
+        assert!(error.starts_with(expected), "{text}: {error}");
+    }
+}

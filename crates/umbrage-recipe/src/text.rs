@@ -94,7 +94,7 @@ impl FromStr for Recipe {
 }
 
 /// A field's name and value.
-fn pair(part: &str) -> Result<(&str, String), RecipeError> {
+pub(crate) fn pair(part: &str) -> Result<(&str, String), RecipeError> {
     let (name, value) = part.split_once('=').ok_or_else(|| RecipeError::value(part, "", "field=value"))?;
     Ok((name, value.into()))
 }

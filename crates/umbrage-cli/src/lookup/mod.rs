@@ -23,7 +23,7 @@ const MOST_LINE: u64 = 4096;
 pub fn run(cli: &Cli, args: &LookupArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {
     let map = info::read(&args.map, cli.max_memory)?;
     let recipe = if let Some(text) = &args.recipe {
-        stage::recipe(text)?
+        stage::recipe(text, map.view().size().max_element())?
     } else {
         let (recipe, why) = own(&map);
         shell.note(&format!("recipe: {recipe} ({why})"));

@@ -169,7 +169,7 @@ fn pages_and_plain_files_hold_the_depths() {
 }
 
 /// A file of a few tiles, both unrefined and with blocks.
-fn file() -> &'static (FacetMap, Vec<u8>) {
+pub fn file() -> &'static (FacetMap, Vec<u8>) {
     static FILE: LazyLock<(FacetMap, Vec<u8>)> = LazyLock::new(|| {
         let map = facets(&spot(UVec2::new(100, 33)), 4, 1);
         let bytes = encode_facet_map(&map).expect("written");

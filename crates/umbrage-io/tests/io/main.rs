@@ -1,5 +1,6 @@
 //! Files in and out of `umbrage-io`.
 
+mod any_map;
 mod cube;
 mod deep_hostile;
 mod deep_maps;

@@ -4,8 +4,8 @@ use glam::{UVec2, Vec3};
 use proptest::prelude::*;
 use umbrage_depth::Raw;
 use umbrage_io::{
-    decode_png, depth_view, encode_exr, encode_png, encode_png_grey, linear_to_srgb8, read_png, replicate, write_exr,
-    write_png, write_png_grey,
+    decode_png, depth_view, encode_exr, encode_exr_values, encode_png, encode_png_grey, encode_png_values,
+    linear_to_srgb8, read_png, replicate, write_exr, write_png, write_png_grey,
 };
 
 /// The linear light of a code, by the standard's formula.
@@ -114,4 +114,29 @@ proptest! {
         let cut = decode_png(&bytes[..cut % length]);
         prop_assert!(cut.is_err() || cut == Ok(whole), "only what follows the pixels may be missing");
     }
+}
+
+#[test]
+fn values_are_written_without_a_curve() {
+    let size = UVec2::new(4, 2);
+    let values = [0.0, 1.0, 0.5, 1.0 / 3.0, f32::NAN, -1.0, 7.0, 2.5 / 65535.0];
+    let bytes = encode_png_values(size, &values).expect("a picture");
+    let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().expect("a picture");
+    assert_eq!(reader.info().gama_chunk.map(png::ScaledFloat::into_value), Some(1.0));
+    let mut samples = vec![0; reader.output_buffer_size().expect("a small picture")];
+    let frame = reader.next_frame(&mut samples).expect("a picture");
+    assert_eq!((frame.color_type, frame.bit_depth), (png::ColorType::Grayscale, png::BitDepth::Sixteen));
+    let codes: Vec<u16> = samples.chunks_exact(2).map(|code| u16::from_be_bytes([code[0], code[1]])).collect();
+    assert_eq!(codes, [0, 65535, 32768, 21845, 0, 0, 65535, 3]);
+
+    let path = folder("exr-values").join("values.exr");
+    std::fs::write(&path, encode_exr_values(size, &values).expect("a picture")).expect("a file");
+    let image = exr::read_all_flat_layers_from_file(&path).expect("a picture");
+    let [layer] = image.layer_data.as_slice() else { panic!("one layer") };
+    let [channel] = layer.channel_data.list.as_slice() else { panic!("one channel") };
+    assert_eq!(channel.name.to_string(), "Y");
+    let bits: Vec<u32> = channel.sample_data.values_as_f32().map(f32::to_bits).collect();
+    assert_eq!(bits, values.map(f32::to_bits));
+
+    assert!(encode_png_values(size, &values[1..]).is_err() && encode_exr_values(size, &values[1..]).is_err());
 }
