@@ -41,12 +41,12 @@ pub enum Command {
     /// Draw the fraction in shadow alone, one picture for each light
     #[command(after_help = "Examples:
   umbrage shadow gallery:contact-box -o shadows
-  umbrage shadow gallery:three-lights --truth --format exr -o truth")]
+  umbrage shadow gallery:three-lights --truth --size 128x128 --format exr -o truth")]
     Shadow(ShadowArgs),
     /// Write the shadow map of each light
     #[command(after_help = "Examples:
   umbrage bake gallery:contact-box -o maps
-  umbrage bake gallery:plant --rule deep --map-size 1024 -o maps")]
+  umbrage bake gallery:glass-pane --rule deep --map-size 256 -o maps")]
     Bake(BakeArgs),
     /// Say what a shadow map holds
     #[command(after_help = "Examples:

@@ -119,7 +119,7 @@ proptest! {
 #[test]
 fn values_are_written_without_a_curve() {
     let size = UVec2::new(4, 2);
-    let values = [0.0, 1.0, 0.5, 1.0 / 3.0, f32::NAN, -1.0, 7.0, 2.5 / 65535.0];
+    let values = [0.0, 1.0, 0.5, 1.0 / 3.0, f32::NAN, -1.0, 7.0, 2.6 / 65535.0];
     let bytes = encode_png_values(size, &values).expect("a picture");
     let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().expect("a picture");
     assert_eq!(reader.info().gama_chunk.map(png::ScaledFloat::into_value), Some(1.0));

@@ -1,0 +1,61 @@
+//! The command lines that README and help show, run as they stand by a shell, one after the other in one folder.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const BINARY: &str = env!("CARGO_BIN_EXE_umbrage");
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder");
+    std::fs::write(folder.join("points.csv"), "x,y,z,nx,ny,nz\n60,0,0,0,1,0\n150,0,150,0,1,0\n").expect("a file");
+    folder
+}
+
+/// Runs a line of a shell that must succeed, and returns what it printed.
+fn shell(folder: &Path, line: &str) -> String {
+    let programs = Path::new(BINARY).parent().expect("a folder").display();
+    let path = format!("{programs}:{}", std::env::var("PATH").unwrap_or_default());
+    let ran =
+        Command::new("sh").args(["-e", "-c", line]).current_dir(folder).env("PATH", path).output().expect("a shell");
+    assert!(ran.status.success(), "{line}: {}", String::from_utf8_lossy(&ran.stderr));
+    String::from_utf8(ran.stdout).expect("text")
+}
+
+/// The lines of a text that call the program, in order.
+fn lines(text: &str) -> Vec<&str> {
+    let calls = |line: &&str| line.starts_with("umbrage ") || line.contains("| umbrage ");
+    text.lines().map(str::trim).filter(calls).map(|line| line.split(" #").next().unwrap_or(line).trim()).collect()
+}
+
+#[test]
+fn every_example_of_help_runs() {
+    let folder = folder("examples-help");
+    // Maps are baked before they are asked about.
+    for command in ["render", "shadow", "bake", "info", "lookup", "recipes", "scenes"] {
+        let help = shell(&folder, &format!("umbrage {command} --help"));
+        let (_, examples) = help.split_once("Examples:").expect("examples");
+        let examples = lines(examples);
+        assert_eq!(examples.len(), 2, "{command}: {examples:?}");
+        for line in examples {
+            shell(&folder, line);
+        }
+    }
+    assert_eq!(std::fs::read_to_string(folder.join("fractions.txt")).expect("a file"), "1.000000000\n0.000000000\n");
+}
+
+#[test]
+fn every_example_of_the_readme_runs() {
+    let folder = folder("examples-readme");
+    let readme =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md")).expect("README");
+    let (_, section) = readme.split_once("## From the shell").expect("a section about the command");
+    let (_, block) = section.split_once("```sh\n").expect("a block of examples");
+    let (block, _) = block.split_once("\n```").expect("its end");
+    let lines = lines(block);
+    assert!(lines.len() >= 6, "{lines:?}");
+    for line in lines {
+        shell(&folder, line);
+    }
+}
