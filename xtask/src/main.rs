@@ -1,7 +1,8 @@
-//! The project's chores: `figures`, `ci`, `tidy`. This program starts others and reads sources; it uses no crate of
+//! The project's chores: `figures`, `ci`, `tidy`, `dist`. This program starts others and reads sources; it uses no crate of
 //! Umbrage, so that it is there in seconds.
 
 mod ci;
+mod dist;
 mod figures;
 mod programs;
 mod readme;
@@ -21,6 +22,7 @@ Commands:
            `cargo xtask figures --help` lists its options
   ci       Everything that must hold before a change is taken
   tidy     Check dependency arrows, circles of modules, allowed packages, file sizes, links and words that must not be there
+  dist     Build the command, and put it with its manual pages and completions into target/dist
   help     Print this
 ";
 
@@ -31,6 +33,7 @@ enum Chore {
     Figures(Vec<OsString>),
     Ci,
     Tidy,
+    Dist,
     Help,
 }
 
@@ -44,6 +47,7 @@ fn chore(args: impl IntoIterator<Item = OsString>) -> Result<Chore, String> {
         Some("help" | "--help" | "-h") => return Ok(Chore::Help),
         Some("ci") => Chore::Ci,
         Some("tidy") => Chore::Tidy,
+        Some("dist") => Chore::Dist,
         _ => return Err(format!("there is no command {:?}", name.display().to_string())),
     };
     match rest.first() {
@@ -67,6 +71,7 @@ fn main() -> ExitCode {
         Chore::Figures(args) => figures::run(&root(), &args),
         Chore::Ci => ci::run(&root()).map(good_or_failed),
         Chore::Tidy => tidy(&root()).map(good_or_failed),
+        Chore::Dist => dist::run(&root()).map(good_or_failed),
         Chore::Help => {
             print!("{HELP}");
             Ok(ExitCode::SUCCESS)
@@ -114,7 +119,8 @@ mod tests {
             assert_eq!(of(&[help]), Ok(Chore::Help));
         }
         assert_eq!(of(&["ci", "--help"]), Ok(Chore::Help));
-        assert!(["figures", "ci", "tidy"].iter().all(|name| HELP.contains(&format!("\n  {name} "))));
+        assert_eq!(of(&["dist"]), Ok(Chore::Dist));
+        assert!(["figures", "ci", "tidy", "dist"].iter().all(|name| HELP.contains(&format!("\n  {name} "))));
     }
 
     #[test]
