@@ -3,7 +3,7 @@ use super::content::{EPSILON, numbers};
 use super::opacity::Opacities;
 use super::packing::unpack;
 use crate::error::Fault;
-use crate::shadow_map::{Nearest, Preface, check_digest, digest};
+use crate::shadow_map::{Channel, Nearest, Preface, check_digest, digest};
 use exr::meta::BlockDescription;
 use exr::meta::header::Header;
 use exr::prelude::{AttributeValue, Compression, Text, Vec2};
@@ -17,7 +17,13 @@ const ROW_HEAD: usize = 28;
 const NO_SURFACE: f32 = 1e30;
 
 pub(super) fn decode(bytes: &[u8], most_steps: u64) -> Result<DeepMap, Fault> {
-    let file = Preface::read_as(check_form, bytes, bytes.len() as u64, most_steps, u64::MAX)?;
+    let file = Preface::read_as(
+        |header| check_form(header).map(|()| Channel::ONLY),
+        bytes,
+        bytes.len() as u64,
+        most_steps,
+        u64::MAX,
+    )?;
     let header = &file.meta.headers[0];
     let columns = Columns::of(header)?;
     let epsilon = match header.own_attributes.other.get(&Text::from(EPSILON)) {

@@ -1,3 +1,4 @@
+use super::channel::Channel;
 use crate::error::Fault;
 use exr::block::UncompressedBlock;
 use exr::block::chunk::{Chunk, CompressedBlock, CompressedScanLineBlock, CompressedTileBlock, TileCoordinates};
@@ -37,12 +38,19 @@ pub(crate) struct Layout {
     columns: usize,
     rows: usize,
     tiled: bool,
+    /// What of each block is wanted.
+    channel: Channel,
     /// First row of the data window as the file counts.
     first_row: i32,
 }
 
 impl Layout {
-    pub(super) fn new(header: &Header, part: Option<usize>, window: TexelRect) -> Result<Self, Fault> {
+    pub(super) fn new(
+        header: &Header,
+        part: Option<usize>,
+        window: TexelRect,
+        channel: Channel,
+    ) -> Result<Self, Fault> {
         let sides = window.size();
         let (block, tiled) = match header.blocks {
             BlockDescription::ScanLines => (Vec2(sides.x as usize, header.compression.scan_lines_per_block()), false),
@@ -63,6 +71,7 @@ impl Layout {
             columns: blocks.x as usize,
             rows: blocks.y as usize,
             tiled,
+            channel,
             first_row: header.own_attributes.layer_position.y(),
         })
     }
@@ -106,7 +115,7 @@ impl Layout {
 
     /// More bytes than these of the file never belong to a block.
     pub(crate) fn most_bytes(&self, index: usize) -> usize {
-        BLOCK_HEAD + self.area(index).area() * 4
+        BLOCK_HEAD + self.area(index).area() * self.channel.texel_bytes()
     }
 
     /// What a fault in a block is said of.
@@ -115,7 +124,7 @@ impl Layout {
         format!("block {}, {} at byte {offset}", cell.x, cell.y)
     }
 
-    /// A block's decoded bytes: four a texel. `block` holds the file from `offset` on, as far as the file goes or farther than
+    /// The wanted channel's samples of a block, decoded: four bytes for each texel. `block` holds the file from `offset` on, as far as the file goes or farther than
     /// the block does.
     pub(crate) fn samples(&self, meta: &MetaData, block: &[u8], index: usize, offset: u64) -> Result<Vec<u8>, Fault> {
         let cell = self.cell(index);
@@ -139,7 +148,7 @@ impl Layout {
             return Err(broken(&format!("{found:?}"), &format!("the block there should be {expected:?}")));
         }
         let length = word("length")?;
-        let expected = self.area(index).area() * 4;
+        let expected = self.area(index).area() * self.channel.texel_bytes();
         let packs =
             |length: &usize| (1..=expected).contains(length) && length.saturating_mul(MOST_BYTES_PER_BYTE) >= expected;
         let packed = usize::try_from(length).ok().filter(packs);
@@ -159,7 +168,7 @@ impl Layout {
         if samples.len() != expected {
             return Err(broken(&samples.len(), &format!("should unpack to {expected} bytes")));
         }
-        Ok(samples)
+        Ok(self.channel.of_block(samples, self.area(index).size().x as usize))
     }
 }
 

@@ -29,8 +29,7 @@ pub(crate) fn of_view(view: &View) -> [[f32; 16]; 2] {
 pub(crate) fn to_view(
     world_to_camera: &[f32; 16],
     world_to_ndc: &[f32; 16],
-    near: f32,
-    far: f32,
+    range: [Option<f32>; 2],
     size: UVec2,
 ) -> Result<View, Fault> {
     let camera = Mat4::from_cols_array(world_to_camera).as_dmat4();
@@ -45,11 +44,20 @@ pub(crate) fn to_view(
         return Err(Fault::new("worldToCamera", format!("{world_to_camera:?}"), problem));
     }
     let ndc = Mat4::from_cols_array(world_to_ndc).as_dmat4();
-    let projection = projection(ndc, camera).ok_or_else(|| {
-        let problem = "neither a centred perspective nor a centred parallel projection of worldToCamera";
-        Fault::new("worldToNDC", format!("{world_to_ndc:?}"), problem)
-    })?;
-    View::new(EYE_TO_CAMERA * straightened(camera), projection, f64::from(near), f64::from(far), size)
+    // Some programs write what goes from -1 to 1, y up. A centred projection is one of the two only.
+    let projection =
+        projection(ndc, camera).or_else(|| projection(screen_to_ndc() * ndc, camera)).ok_or_else(|| {
+            let problem = "neither a centred perspective nor a centred parallel projection of worldToCamera";
+            Fault::new("worldToNDC", format!("{world_to_ndc:?}"), problem)
+        })?;
+    let (near, far) = match range {
+        [Some(near), Some(far)] => (f64::from(near), f64::from(far)),
+        [near, _] => depths_of(ndc, camera).ok_or_else(|| {
+            let field = if near.is_some() { "far" } else { "near" };
+            Fault::new(field, "missing", "a shadow map needs it, as worldToNDC does not map depths to 0 to 1")
+        })?,
+    };
+    View::new(EYE_TO_CAMERA * straightened(camera), projection, near, far, size)
         .map(|view| view.with_kind(Kind::Axial))
         .map_err(|error| Fault::new("near, far", format!("{near}, {far}"), error))
 }
@@ -76,6 +84,17 @@ struct Row {
     rest: f64,
     /// By how much the roundings of the two may change that.
     rounding: f64,
+}
+
+/// The depths that become 0 and 1, if the third row is of that kind.
+fn depths_of(ndc: DMat4, camera: DMat4) -> Option<(f64, f64)> {
+    let to_ndc = ndc * camera.inverse();
+    let (z, w) = (to_ndc.row(2), to_ndc.row(3));
+    let perspective = w.z.abs() > w.w.abs();
+    let scale = if perspective { w.z } else { w.w };
+    let (a, b) = (z.z / scale, z.w / scale);
+    let (near, far) = if perspective { (-b / a, b / (1.0 - a)) } else { (-b / a, (1.0 - b) / a) };
+    (near.is_finite() && far.is_finite() && near < far && (near > 0.0 || !perspective)).then_some((near, far))
 }
 
 /// What takes camera space (+z ahead) to NDC: (a·x + z/2, z/2 − b·y)/z in perspective, (a·x + ½, ½ − b·y) in parallel.

@@ -10,6 +10,7 @@
 //!
 //! A file may have a second part, named `facets`, which is not looked at here: the file of a map of facets is a shadow map too.
 
+mod channel;
 mod layout;
 mod matrices;
 mod nearest;
@@ -23,6 +24,7 @@ use crate::file::{read_bytes, write_bytes};
 use std::path::Path;
 use umbrage_depth::{DepthMap, Raw};
 
+pub(crate) use channel::Channel;
 pub(crate) use layout::{Layout, MOST_BYTES_PER_BYTE};
 pub(crate) use nearest::Nearest;
 pub(crate) use read::{Preface, check_digest, depths};
@@ -53,8 +55,9 @@ pub fn write_shadow_map(path: &Path, map: &impl DepthMap) -> Result<(), IoError>
 /// Reads a map: depths, view and stored surface equal those that were written bit for bit (R87-4). Depths of 1e30 and more count as +∞
 /// (C-5).
 ///
-/// The file of a map of facets is taken as the depths it holds. Files of other makers are taken when they have one part with one channel `Z` of floats, stored without loss, and the four
-/// attributes; their depths are axial, their texels sampled at the centre, and what lies outside is lit.
+/// The file of a map of facets is taken as the depths it holds. Files of other makers are taken when they have one part with a channel `Z`, or one that ends in `.Z`, of floats of 16 or 32 bits, stored without loss, and
+/// say where the light stands: `worldToCamera` (or `worldtocamera`, `Nl`), `worldToNDC` (or `worldtoscreen`, `NP`; −1 to 1 with y up is understood), and `near` and `far`, if
+/// they do not follow from the second. Their depths are axial, their texels sampled at the centre, and what lies outside is lit.
 ///
 /// # Errors
 /// [`IoError`]: one line with the file, the field and its value, when the system refuses or the file is damaged, hostile, too large

@@ -1,10 +1,11 @@
+use super::channel::Channel;
 use super::layout::check_packing;
 use super::words::WordPart;
 use super::{Layout, Nearest, matrices, text};
 use crate::error::Fault;
 use exr::meta::MetaData;
 use exr::meta::header::Header;
-use exr::prelude::{SampleType, Vec2};
+use exr::prelude::{AttributeValue, Text};
 use glam::{IVec2, UVec2};
 use std::io::{BufRead, Read};
 use umbrage_depth::Stored;
@@ -40,7 +41,7 @@ impl Preface {
 
     /// The same for another form of map than the flat one: `check_form` refuses what is not of it.
     pub(crate) fn read_as(
-        check_form: impl FnOnce(&Header) -> Result<(), Fault>,
+        check_form: impl FnOnce(&Header) -> Result<Channel, Fault>,
         file: impl BufRead,
         length: u64,
         most_texels: u64,
@@ -61,9 +62,9 @@ impl Preface {
             [_] => return Err(Fault::new("version", "flagged as of several parts", "the file has one")),
             parts => return Err(Fault::new("parts", parts.len(), "a shadow map has one, and at most one of facets")),
         };
-        check_form(header)?;
+        let channel = check_form(header)?;
         let (size, window) = windows(header, most_texels)?;
-        let layout = Layout::new(header, several.then_some(0), window)?;
+        let layout = Layout::new(header, several.then_some(0), window, channel)?;
         let words = words.map(WordPart::layout).transpose()?;
         let blocks = layout.count();
         let all = blocks + words.as_ref().map_or(0, Layout::count);
@@ -112,25 +113,14 @@ pub(crate) fn check_digest(written: Option<u64>, found: u64) -> Result<(), Fault
     }
 }
 
-/// One flat channel Z of floats, stored without loss, on one level.
-fn check_form(header: &Header) -> Result<(), Fault> {
+/// A flat channel of depths, stored without loss.
+fn check_form(header: &Header) -> Result<Channel, Fault> {
     if header.deep {
         return Err(Fault::new("type", "deep", "a shadow map has one depth a texel"));
     }
-    let channels = &header.channels.list;
-    let names = channels.iter().map(|channel| channel.name.to_string()).collect::<Vec<_>>().join(", ");
-    match channels.as_slice() {
-        [only] if only.name.as_slice() == b"Z" => {
-            if only.sample_type != SampleType::F32 {
-                return Err(Fault::new("channel Z", format!("{:?}", only.sample_type), "not 32-bit float"));
-            }
-            if only.sampling != Vec2(1, 1) {
-                return Err(Fault::new("channel Z sampling", format!("{:?}", only.sampling), "not 1, 1"));
-            }
-        }
-        _ => return Err(Fault::new("channels", names, "not the one channel Z")),
-    }
-    check_packing(header)
+    let channel = Channel::of_depths(header)?;
+    check_packing(header)?;
+    Ok(channel)
 }
 
 /// The map's size and the rectangle that is stored of it, relative to the display window.
@@ -204,11 +194,16 @@ fn described(header: &Header, size: UVec2) -> Result<text::Description, Fault> {
         return Err(Fault::new("comments", "no view", "software is umbrage, which writes one"));
     }
     let missing = |field: &str| Fault::new(field, "missing", "a shadow map needs it");
+    let other = |name: &str| match attributes.other.get(&Text::from(name)) {
+        Some(AttributeValue::Matrix4x4(matrix)) => Some(*matrix),
+        _ => None,
+    };
+    let camera = attributes.world_to_camera.or_else(|| other("worldtocamera")).or_else(|| other("Nl"));
+    let screen = attributes.world_to_normalized_device.or_else(|| other("worldtoscreen")).or_else(|| other("NP"));
     let view = matrices::to_view(
-        attributes.world_to_camera.as_ref().ok_or_else(|| missing("worldToCamera"))?,
-        attributes.world_to_normalized_device.as_ref().ok_or_else(|| missing("worldToNDC"))?,
-        attributes.near_clip_plane.ok_or_else(|| missing("near"))?,
-        attributes.far_clip_plane.ok_or_else(|| missing("far"))?,
+        &camera.ok_or_else(|| missing("worldToCamera"))?,
+        &screen.ok_or_else(|| missing("worldToNDC"))?,
+        [attributes.near_clip_plane, attributes.far_clip_plane],
         size,
     )?;
     Ok(text::Description { view, stored: Stored::First, window: TexelRect::of_size(size), digest: None })

@@ -1,5 +1,6 @@
 //! A second part behind the depths, which holds the facets: 32-bit words, row after row.
 
+use super::channel::Channel;
 use super::layout::check_packing;
 use super::{Layout, text};
 use crate::error::Fault;
@@ -95,7 +96,7 @@ impl WordPart {
                 return Err(Fault::new("dataWindow", value, "empty, too large or not at 0, 0"));
             };
             let window = TexelRect::of_size(UVec2::new(columns as u32, rows as u32));
-            Layout::new(header, Some(Self::PART), window)
+            Layout::new(header, Some(Self::PART), window, Channel::ONLY)
         };
         layout().map_err(in_part)
     }

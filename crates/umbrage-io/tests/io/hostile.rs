@@ -138,8 +138,8 @@ fn forms_that_are_no_shadow_map() {
     assert_eq!(&bytes[channels..channels + 6], b"Z\0\x02\0\0\0");
     for (at, with, expected) in [
         (channels, &b"Y"[..], "channels is Y"),
-        (channels + 2, &[1], "not 32-bit float"),
-        (channels + 2, &[0], "not 32-bit float"),
+        (channels + 2, &[1], "block 0, 0 at byte"),
+        (channels + 2, &[0], "not of floats"),
         (channels + 10, &[2], "sampling"),
     ] {
         let message = patched(at, with).expect_err(expected).to_string();

@@ -1,7 +1,7 @@
 use crate::{folder, map, spot, sun, views};
 use ::exr::prelude as exr;
 use ::exr::prelude::{ReadChannels as _, ReadLayers as _};
-use glam::{DVec3, DVec4, IVec2, Mat4, UVec2};
+use glam::{DVec2, DVec3, DVec4, IVec2, Mat4, UVec2, Vec3};
 use proptest::prelude::*;
 use umbrage_depth::{Bbox, DepthMap, Raw, Tiled};
 use umbrage_io::{DEFAULT_BUDGET, Paged, decode_shadow_map, encode_shadow_map, read_shadow_map, write_shadow_map};
@@ -259,10 +259,10 @@ fn foreign_files_without_what_a_map_needs_are_refused_by_name() {
     for lossy in [Compression::PXR24, Compression::PIZ, Compression::B44] {
         refused(lossy, Blocks::ScanLines, "compression is");
     }
-    let pixels = [glam::Vec3::ONE; 4];
+    let pixels = [Vec3::ONE; 4];
     let picture = umbrage_io::encode_exr(UVec2::splat(2), &pixels).expect("written");
     let message = decode_shadow_map(&picture, DEFAULT_BUDGET).expect_err("three channels").to_string();
-    assert_eq!(message, "channels is B, G, R: not the one channel Z");
+    assert_eq!(message, "channels is B, G, R: no channel Z among them");
 }
 
 #[test]
@@ -309,4 +309,104 @@ fn a_file_says_which_surface_its_map_stores() {
     let plain = Raw::new(view, vec![2.0; 9]).expect("a map");
     let bytes = encode_shadow_map(&plain).expect("written");
     assert!(!bytes.windows(7).any(|word| word == b"stored="));
+}
+
+/// A file of another maker with these channels, whose attributes are changed.
+fn others(
+    view: &View,
+    channels: Vec<(&str, exr::FlatSamples)>,
+    change: impl FnOnce(&mut exr::LayerAttributes),
+) -> Vec<u8> {
+    let map = map(view);
+    let mut attributes = our_attributes(&map);
+    attributes.comments = None;
+    attributes.software_name = None;
+    attributes.layer_position = exr::Vec2(0, 0);
+    change(&mut attributes);
+    let size = exr::Vec2(view.size().x as usize, view.size().y as usize);
+    let channels = channels.into_iter().map(|(name, samples)| exr::AnyChannel::new(name, samples)).collect();
+    let encoding = exr::Encoding {
+        compression: exr::Compression::ZIP16,
+        blocks: exr::Blocks::ScanLines,
+        line_order: exr::LineOrder::Increasing,
+    };
+    let layer = exr::Layer::new(size, attributes, encoding, exr::AnyChannels::sort(channels));
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    exr::WritableImage::write(&exr::Image::from_layer(layer)).non_parallel().to_buffered(&mut bytes).expect("written");
+    bytes.into_inner()
+}
+
+#[test]
+fn depths_of_other_makers_stand_among_other_channels_and_in_halves() {
+    let view = spot(UVec2::new(45, 33));
+    let own = map(&view);
+    let depths = || exr::FlatSamples::F32(own.depths().to_vec());
+    let halves = || exr::FlatSamples::F16(own.depths().iter().map(|depth| exr::f16::from_f32(*depth)).collect());
+    let grey = || exr::FlatSamples::F32(vec![0.25; 45 * 33]);
+    let small = || exr::FlatSamples::F16(vec![exr::f16::ONE; 45 * 33]);
+    let ids = || exr::FlatSamples::U32(vec![7; 45 * 33]);
+    let read = |channels| decode_shadow_map(&others(&view, channels, |_| ()), DEFAULT_BUDGET);
+    for channels in [
+        vec![("Z", depths())],
+        vec![("R", grey()), ("G", small()), ("B", grey()), ("A", small()), ("Z", depths())],
+        vec![("depth.Z", depths())],
+        vec![("a", ids()), ("depth.Z", depths()), ("z", small())],
+        vec![("Z", depths()), ("ZBack", grey()), ("depth.Z", small())],
+    ] {
+        assert_eq!(bits(&read(channels).expect("read")), bits(&own));
+    }
+    for channels in [vec![("Z", halves())], vec![("A", grey()), ("Z", halves()), ("id", ids())]] {
+        let found = read(channels).expect("read");
+        let rounded = own.depths().iter().map(|depth| exr::f16::from_f32(*depth).to_f32().to_bits());
+        assert!(found.depths().iter().map(|depth| depth.to_bits()).eq(rounded));
+    }
+    for (channels, expected) in [
+        (vec![("R", grey()), ("A", small())], "channels is A, R: no channel Z among them"),
+        (vec![("a.Z", grey()), ("b.Z", small())], "channels is a.Z, b.Z: no channel Z among them"),
+        (vec![("Z", ids())], "channel Z is U32: not of floats"),
+    ] {
+        assert_eq!(read(channels).expect_err("refused").to_string(), expected);
+    }
+}
+
+#[test]
+fn other_names_for_where_a_light_stands_are_known() {
+    use exr::AttributeValue::Matrix4x4;
+    for view in [spot(UVec2::new(45, 33)), sun(UVec2::new(45, 33))] {
+        let own = map(&view);
+        // RenderMan's, OpenImageIO's and our own words; from -1 to 1 with y up, or 0 to 1 with y down.
+        for (camera, screen, ndc) in
+            [("Nl", "NP", false), ("worldtocamera", "worldtoscreen", false), ("Nl", "NP", true)]
+        {
+            let change = |attributes: &mut exr::LayerAttributes| {
+                let to_camera = attributes.world_to_camera.take().expect("ours");
+                let to_ndc = attributes.world_to_normalized_device.take().expect("ours");
+                let to_screen = Mat4::from_scale(Vec3::new(2.0, -2.0, 1.0))
+                    * Mat4::from_translation(Vec3::new(-0.5, -0.5, 0.0))
+                    * Mat4::from_cols_array(&to_ndc);
+                let matrix = if ndc { to_ndc } else { to_screen.to_cols_array() };
+                attributes.other.insert(camera.into(), Matrix4x4(to_camera));
+                attributes.other.insert(screen.into(), Matrix4x4(matrix));
+                attributes.near_clip_plane = None;
+                attributes.far_clip_plane = None;
+            };
+            let bytes = others(&view, vec![("Z", exr::FlatSamples::F32(own.depths().to_vec()))], change);
+            let read = decode_shadow_map(&bytes, DEFAULT_BUDGET).expect("read");
+            assert_eq!(bits(&read), bits(&own));
+            assert!(read.view().world_to_eye().abs_diff_eq(view.world_to_eye(), 1e-4));
+            let range = |view: &View| DVec2::new(view.near(), view.far());
+            assert!((range(read.view()) - range(&view)).abs().max_element() < 1e-2, "{:?}", range(read.view()));
+        }
+        let without = |attributes: &mut exr::LayerAttributes| {
+            attributes.far_clip_plane = None;
+            // A third row that says nothing of depths.
+            let matrix = attributes.world_to_normalized_device.as_mut().expect("ours");
+            for entry in [2, 6, 10, 14] {
+                matrix[entry] = 0.0;
+            }
+        };
+        let bytes = others(&view, vec![("Z", exr::FlatSamples::F32(own.depths().to_vec()))], without);
+        let message = decode_shadow_map(&bytes, DEFAULT_BUDGET).expect_err("refused").to_string();
+        assert!(message.starts_with("far is missing: a shadow map needs it"), "{message}");
+    }
 }
