@@ -24,7 +24,8 @@ impl Channel {
             let mut fitting = channels.iter().enumerate().filter(|(_, channel)| ending(&channel.name.to_string()));
             fitting.next().filter(|_| fitting.next().is_none())
         };
-        let found = named(|name| name == "Z").or_else(|| named(|name| name.ends_with(".Z")));
+        let found = named(|name| name == "Z")
+            .or_else(|| named(|name| name.rsplit_once('.').is_some_and(|(_, last)| last == "Z")));
         let Some((index, depths)) = found else {
             let names = channels.iter().map(|channel| channel.name.to_string()).collect::<Vec<_>>().join(", ");
             return Err(Fault::new("channels", names, "no channel Z among them"));
