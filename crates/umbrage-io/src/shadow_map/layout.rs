@@ -18,9 +18,11 @@ const BLOCK_HEAD: usize = 24;
 /// What is packed without loss, by coders that are known to bear hostile bytes.
 pub(super) fn check_packing(header: &Header) -> Result<(), Fault> {
     match header.compression {
-        Compression::Uncompressed | Compression::RLE | Compression::ZIP1 | Compression::ZIP16 => Ok(()),
+        Compression::Uncompressed | Compression::RLE | Compression::ZIP1 | Compression::ZIP16 | Compression::PIZ => {
+            Ok(())
+        }
         lossy_or_rare => {
-            let problem = "maps are read from none, RLE, ZIPS and ZIP only, which keep every bit";
+            let problem = "maps are read from none, RLE, ZIPS, ZIP and PIZ only, which keep every bit";
             Err(Fault::new("compression", lossy_or_rare, problem))
         }
     }
