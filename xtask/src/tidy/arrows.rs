@@ -81,6 +81,12 @@ const RULES: &[Rule] = &[
         tests: PROPERTIES,
     },
     Rule {
+        package: "umbrage-gltf",
+        arrows: &["umbrage-scene"],
+        outside: &["base64", "glam", "serde_json", "thiserror"],
+        tests: PROPERTIES,
+    },
+    Rule {
         package: "umbrage-report",
         arrows: &["umbrage-io"],
         outside: &["anyhow", "glam", "indicatif", "rayon", "serde", "serde_json"],

@@ -1,0 +1,30 @@
+//! glTF 2.0 scenes with their lights and cameras, read with suspicion, and written.
+mod accessor;
+mod animation;
+mod budget;
+mod camera;
+mod container;
+mod encode;
+mod error;
+mod file;
+mod import;
+mod json;
+mod lights;
+mod material;
+mod nodes;
+mod note;
+mod objects;
+mod options;
+mod placed;
+mod primitive;
+mod sight;
+mod skin;
+mod source;
+mod uri;
+mod window;
+
+pub use encode::encode;
+pub use error::GltfError;
+pub use import::{Import, Lamp, decode, read};
+pub use note::{Level, Note};
+pub use options::ReadOptions;
