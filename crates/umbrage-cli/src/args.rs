@@ -35,12 +35,12 @@ pub struct Cli {
 pub enum Command {
     /// Draw the lit picture of a scene
     #[command(after_help = "Examples:
-  umbrage render gallery:contact-box -o box.png
+  umbrage render fixtures/scenes/suzi.glb -o suzi.png
   umbrage render gallery:spot-room --recipe woo92 --map-size 256 -o room.exr")]
     Render(RenderArgs),
     /// Draw the fraction in shadow alone, one picture for each light
     #[command(after_help = "Examples:
-  umbrage shadow gallery:contact-box -o shadows
+  umbrage shadow fixtures/scenes/bunny.glb --area --map-size 128 --size 96x72 -o shadows
   umbrage shadow gallery:three-lights --truth --size 128x128 --format exr -o truth")]
     Shadow(ShadowArgs),
     /// Write the shadow map of each light
@@ -63,6 +63,11 @@ Examples:
   umbrage lookup maps/contact-box.exr --recipe auto --keep-going < points.csv > fractions.txt"
     )]
     Lookup(LookupArgs),
+    /// Write a scene as binary glTF, with its lights and the windows of their maps
+    #[command(after_help = "Examples:
+  umbrage export gallery:contact-box -o box.glb
+  umbrage export gallery:three-lights --map-size 1024 -o lights.glb")]
+    Export(ExportArgs),
     /// List the algorithms by name, or the parameters of one
     #[command(after_help = "Examples:
   umbrage recipes
@@ -81,7 +86,7 @@ Examples:
 /// A scene, and how it is seen.
 #[derive(Args)]
 pub struct SceneArgs {
-    /// `gallery:NAME`, a scene that is built in (`umbrage scenes` lists them)
+    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a scene that is built in (`umbrage scenes` lists them)
     #[arg(value_name = "SCENE")]
     pub scene: String,
     /// Columns and rows of the picture; the vertical angle of view is kept
@@ -97,6 +102,15 @@ pub struct SceneArgs {
     /// Only these lights
     #[arg(long, value_name = "NAME", num_args = 1..)]
     pub light: Vec<String>,
+    /// The camera of a file, its first unless given
+    #[arg(long, value_name = "NAME")]
+    pub camera: Option<String>,
+    /// The moment at which a file's animation is sampled; without it things stand as the file has them
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
+    pub time: Option<f64>,
+    /// The animation that --time samples, the file's first unless given
+    #[arg(long, value_name = "NAME", requires = "time")]
+    pub animation: Option<String>,
     /// Key of randomness; another number, other noise
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub frame: u32,
@@ -130,9 +144,9 @@ pub struct ShadowArgs {
     /// Where maps lie: as the light says, or about what the camera sees
     #[arg(long, value_enum, default_value_t = WindowArg::File)]
     pub window: WindowArg,
-    /// Radius of every light, world units (of a sun: tangent of its angle); shadows become soft
-    #[arg(long, value_name = "RADIUS", value_parser = radius)]
-    pub area: Option<f32>,
+    /// Filter for the size of each light, as the file gives it in `extras`, or with a radius of so many world units (of a sun: radians)
+    #[arg(long, value_name = "RADIUS", num_args = 0..=1, require_equals = true, value_parser = radius)]
+    pub area: Option<Option<f64>>,
     /// Cast rays instead of asking maps
     #[arg(long)]
     pub truth: bool,
@@ -173,6 +187,15 @@ pub enum RuleArg {
     Midpoint,
     Facets,
     Deep,
+}
+
+#[derive(Args)]
+pub struct ExportArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// The file, .glb
+    #[arg(short, long, value_name = "FILE.glb")]
+    pub output: PathBuf,
 }
 
 #[derive(Args)]
@@ -230,7 +253,11 @@ fn samples(text: &str) -> Result<u32, String> {
     number.ok_or_else(|| "expected 1, 4, 16 or 64".into())
 }
 
-fn radius(text: &str) -> Result<f32, String> {
-    let number = text.parse().ok().filter(|number: &f32| number.is_finite() && *number > 0.0);
+fn seconds(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|number: &f64| number.is_finite()).ok_or_else(|| "expected a finite number".into())
+}
+
+fn radius(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
     number.ok_or_else(|| "expected a finite number above 0".into())
 }

@@ -16,6 +16,9 @@ use umbrage_render::light_map;
 /// Names of the views of a light that shines all around.
 const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
 
+/// And of one that shines into a half space.
+const AHEAD: [&str; 5] = ["ahead", "right", "left", "up", "down"];
+
 pub fn run(cli: &Cli, args: &BakeArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {
     if args.scene.recipe.is_some() {
         return Err(Usage("--recipe: a map is baked by --rule; a recipe is chosen when it is looked up".into()).into());
@@ -31,7 +34,11 @@ pub fn run(cli: &Cli, args: &BakeArgs, shell: &mut Shell<'_>) -> anyhow::Result<
             let map = light_map(&recipe, &stage.scene, view).kept(args.storage);
             baked += start.elapsed();
             bytes += map.allocated();
-            let face: &[&str] = if lamp.views.len() > 1 { &FACES[index..=index] } else { &[] };
+            let face: &[&str] = match lamp.views.len() {
+                1 => &[],
+                6 => &FACES[index..=index],
+                _ => &AHEAD[index..=index],
+            };
             let path = names::file(&args.output, &stage.scene.name, stage.part(lamp), face, "exr");
             let start = Instant::now();
             write(&path, &map)?;

@@ -15,6 +15,8 @@ pub fn shadow_of(stage: &Stage, lamp: &Lamp, recipe: &Recipe) -> anyhow::Result<
     let light = &scene.lights[lamp.light];
     let seen = recipe.is_fitted().then(|| receivers(scene, &light.view));
     let with = LightUse { storage: Storage::Tiled, receivers: seen.as_deref(), moments: 1 };
-    let shadow = recipe.shadow_of(&lamp.views, &with, |view, _| Soup::casters(scene, view).into_casting());
+    // A spot too wide for one map is split by the recipe, which then knows its cone.
+    let views = if light.view.cone().is_some() { std::slice::from_ref(&light.view) } else { &lamp.views };
+    let shadow = recipe.shadow_of(views, &with, |view, _| Soup::casters(scene, view).into_casting());
     shadow.with_context(|| format!("light {:?}", light.name))
 }

@@ -4,6 +4,7 @@
 
 mod args;
 mod bake;
+mod export;
 mod generate;
 mod info;
 mod lamp;
@@ -60,6 +61,7 @@ fn command(cli: &Cli, shell: &mut Shell<'_>) -> anyhow::Result<()> {
         Command::Render(args) => render::run(cli, args, shell),
         Command::Shadow(args) => shadow::run(cli, args, shell),
         Command::Bake(args) => bake::run(cli, args, shell),
+        Command::Export(args) => export::run(cli, args, shell),
         Command::Info(args) => info::run(cli, args, shell),
         Command::Lookup(args) => lookup::run(cli, args, shell),
         Command::Recipes(args) => listing::recipes(cli, args, shell),

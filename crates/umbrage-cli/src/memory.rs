@@ -54,7 +54,7 @@ impl Need {
 }
 
 /// 4 GiB, or half of the machine's memory where that is less.
-fn default() -> u64 {
+pub fn default() -> u64 {
     machine_memory().map_or(4 * GIB, |total| (total / 2).min(4 * GIB))
 }
 

@@ -32,9 +32,9 @@ pub fn run(cli: &Cli, args: &ShadowArgs, shell: &mut Shell<'_>) -> anyhow::Resul
         let start = Instant::now();
         let (fractions, name, bytes, baked) = if let Some(geometry) = &geometry {
             let frame = Frame { every_sample: true, ..frame };
-            (by_rays(&stage, lamp, geometry, args.area, &frame), "rays".into(), 0, Duration::ZERO)
+            (by_rays(&stage, lamp, geometry, area(&stage, lamp, args)?, &frame), "rays".into(), 0, Duration::ZERO)
         } else {
-            let recipe = recipe(&stage.recipe_of(lamp)?, args)?;
+            let recipe = recipe(&stage.recipe_of(lamp)?, area(&stage, lamp, args)?, args.window)?;
             let made = lamp::shadow_of(&stage, lamp, &recipe)?;
             let baked = start.elapsed();
             let bytes = made.maps.iter().map(|map| map.bytes).sum();
@@ -58,13 +58,25 @@ pub fn frame(samples: u32, seed: u32, number: u32) -> Frame {
     Frame { axis: samples.isqrt(), seed, number, ..Frame::default() }
 }
 
+/// The radius of a light that is to be filtered for: world units, or the tangent of a sun's angle.
+fn area(stage: &Stage, lamp: &Lamp, args: &ShadowArgs) -> anyhow::Result<Option<f64>> {
+    let Some(given) = args.area else { return Ok(None) };
+    let radius = given.unwrap_or(lamp.radius);
+    if radius <= 0.0 {
+        let problem = "the scene gives it no radius: --area=RADIUS does";
+        return Err(Usage(format!("--area: light {:?}: {problem}", lamp.name)).into());
+    }
+    let is_sun = !stage.scene.lights[lamp.light].view.is_perspective();
+    Ok(Some(if is_sun { radius.tan() } else { radius }))
+}
+
 /// A recipe with the window and the size of the light that the command line names.
-fn recipe(recipe: &Recipe, args: &ShadowArgs) -> anyhow::Result<Recipe> {
+fn recipe(recipe: &Recipe, area: Option<f64>, window: WindowArg) -> anyhow::Result<Recipe> {
     let mut text = recipe.to_string();
-    if args.window == WindowArg::Fitted {
+    if window == WindowArg::Fitted {
         text += ",window=fitted";
     }
-    if let Some(radius) = args.area {
+    if let Some(radius) = area {
         let _ = write!(text, ",light={radius}");
     }
     text.parse().map_err(|error| Usage(format!("recipe {text}: {error}")).into())
@@ -78,14 +90,16 @@ fn drawn(scene: &Scene, lamp: &Lamp, shadow: &dyn Shadow, frame: &Frame) -> Vec<
     picture(&one, &[&turned], frame).shadow.swap_remove(0)
 }
 
-fn by_rays(stage: &Stage, lamp: &Lamp, geometry: &Geometry, area: Option<f32>, frame: &Frame) -> Vec<f32> {
+fn by_rays(stage: &Stage, lamp: &Lamp, geometry: &Geometry, area: Option<f64>, frame: &Frame) -> Vec<f32> {
     let view = &stage.scene.lights[lamp.light].view;
-    let ray = RayCast::new(geometry, view).with(Truth { look_everywhere: true, ..Truth::default() });
+    let all_around = lamp.views.len() > 1 && view.cone().is_none();
+    let ray = if all_around { RayCast::everywhere(geometry, view.light()) } else { RayCast::new(geometry, view) };
+    let ray = ray.with(Truth { look_everywhere: true, ..Truth::default() });
     match area {
         None => drawn(&stage.scene, lamp, &ray, frame),
         Some(radius) => {
             let rays = AREA_RAYS[usize::from(frame.axis == 1)];
-            drawn(&stage.scene, lamp, &AreaLight::new(ray, f64::from(radius)).with_samples(rays), frame)
+            drawn(&stage.scene, lamp, &AreaLight::new(ray, radius).with_samples(rays), frame)
         }
     }
 }

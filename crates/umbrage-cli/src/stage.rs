@@ -1,12 +1,13 @@
 //! The scene that a command is about.
 
 use crate::args::SceneArgs;
-use crate::memory::Need;
+use crate::memory::{self, Need};
 use crate::names;
 use crate::shell::{Shell, Usage};
 use anyhow::{Context, anyhow};
 use glam::{DVec2, UVec2};
 use std::path::Path;
+use umbrage_gltf::{Level, ReadOptions};
 use umbrage_io::read_bytes;
 use umbrage_plane::{Projection, View, ViewError};
 use umbrage_recipe::Recipe;
@@ -23,6 +24,8 @@ pub struct Lamp {
     pub name: String,
     /// The views that its maps have: one, or several that stand around it.
     pub views: Vec<View>,
+    /// Its radius: world units, of a sun radians; 0 where it has none.
+    pub radius: f64,
 }
 
 /// A scene with its camera and maps as the command line wants them.
@@ -42,22 +45,13 @@ impl Stage {
     /// # Errors
     /// One line that says what is wrong with the scene or with what was asked of it.
     pub fn new(args: &SceneArgs, max_memory: Option<u64>, samples: u32, shell: &mut Shell<'_>) -> anyhow::Result<Self> {
-        let Some(name) = args.scene.strip_prefix("gallery:") else {
-            return Err(Usage(format!("scene {:?}: expected gallery:NAME", args.scene)).into());
+        let (scene, lamps) = match args.scene.strip_prefix("gallery:") {
+            Some(name) => built_in(name, args)?,
+            None => from_file(args, max_memory, shell)?,
         };
-        let Some((_, make)) = gallery::ALL.iter().find(|(known, _)| *known == name) else {
-            return Err(Usage(format!("scene gallery:{name} is not known; `umbrage scenes` lists them")).into());
-        };
-        let mut scene = make();
-        let aspect = f64::from(scene.camera.size().x) / f64::from(scene.camera.size().y);
-        let size =
-            args.size.unwrap_or_else(|| UVec2::new((f64::from(HEIGHT) * aspect).round().max(1.0) as u32, HEIGHT));
-        scene.camera = sized(&scene.camera, size).with_context(|| format!("--size {} x {}", size.x, size.y))?;
-        for light in &mut scene.lights {
-            light.view = light.view.with_size(UVec2::splat(args.map_size)).context("--map-size")?;
-        }
+        let size = scene.camera.size();
         let recipe = args.recipe.as_deref().map(|text| recipe(text, args.map_size)).transpose()?;
-        let lamps = lamps(&scene, &args.light)?;
+        let lamps = wanted(&scene, lamps, &args.light)?;
         let casting = scene.lights.iter().filter(|light| light.casts).count();
         let triangles = scene.objects.iter().map(|object| match &object.shape {
             umbrage_scene::Shape::Mesh(mesh) => mesh.triangles.len() as u64,
@@ -112,20 +106,69 @@ fn sized(camera: &View, size: UVec2) -> Result<View, ViewError> {
     Ok(view.alike(camera))
 }
 
+/// A scene of the gallery, and the views of its lights' maps.
+fn built_in(name: &str, args: &SceneArgs) -> anyhow::Result<(Scene, Vec<umbrage_gltf::Lamp>)> {
+    let Some((_, make)) = gallery::ALL.iter().find(|(known, _)| *known == name) else {
+        return Err(Usage(format!("scene gallery:{name} is not known; `umbrage scenes` lists them")).into());
+    };
+    if args.camera.is_some() || args.time.is_some() {
+        return Err(
+            Usage("--camera and --time: scenes that are built in have one camera and stand still".into()).into()
+        );
+    }
+    let mut scene = make();
+    let aspect = f64::from(scene.camera.size().x) / f64::from(scene.camera.size().y);
+    let size = args.size.unwrap_or_else(|| UVec2::new((f64::from(HEIGHT) * aspect).round().max(1.0) as u32, HEIGHT));
+    scene.camera = sized(&scene.camera, size).with_context(|| format!("--size {} x {}", size.x, size.y))?;
+    for light in &mut scene.lights {
+        light.view = light.view.with_size(UVec2::splat(args.map_size)).context("--map-size")?;
+    }
+    let lamps = scene.lights.iter().map(|light| umbrage_gltf::Lamp { views: vec![light.view], radius: 0.0 }).collect();
+    Ok((scene, lamps))
+}
+
+/// A scene from a file, whose reader's notes are passed on.
+fn from_file(
+    args: &SceneArgs,
+    max_memory: Option<u64>,
+    shell: &mut Shell<'_>,
+) -> anyhow::Result<(Scene, Vec<umbrage_gltf::Lamp>)> {
+    let path = Path::new(&args.scene);
+    let known = |extension: &std::ffi::OsStr| ["glb", "gltf"].iter().any(|known| extension.eq_ignore_ascii_case(known));
+    if !path.extension().is_some_and(known) {
+        return Err(Usage(format!("scene {:?}: expected a .glb or .gltf file, or gallery:NAME", args.scene)).into());
+    }
+    let options = ReadOptions::default()
+        .with_size(args.size)
+        .with_map_size(args.map_size)
+        .with_camera(args.camera.clone())
+        .with_time(args.time)
+        .with_animation(args.animation.clone())
+        .with_max_bytes(max_memory.unwrap_or_else(memory::default));
+    let import = umbrage_gltf::read(path, &options)?;
+    for note in &import.notes {
+        if shell.verbose || note.level == Level::Always {
+            shell.note(&format!("note: {note}"));
+        }
+    }
+    Ok((import.scene, import.lamps))
+}
+
 /// The lights that cast shadows, those of them that are named where any are.
-fn lamps(scene: &Scene, wanted: &[String]) -> anyhow::Result<Vec<Lamp>> {
+fn wanted(scene: &Scene, lamps: Vec<umbrage_gltf::Lamp>, wanted: &[String]) -> anyhow::Result<Vec<Lamp>> {
     let names = names::distinct(scene.lights.iter().map(|light| light.name.as_str()));
-    let casting = || scene.lights.iter().zip(&names).enumerate().filter(|(_, (light, _))| light.casts);
-    if let Some(unknown) =
-        wanted.iter().find(|name| !casting().any(|(_, (light, own))| light.name == **name || own == *name))
-    {
-        let known: Vec<&str> = casting().map(|(_, (_, own))| own.as_str()).collect();
+    let is_called = |light: usize, name: &String| scene.lights[light].name == *name || names[light] == *name;
+    let casting: Vec<usize> = (0..scene.lights.len()).filter(|light| scene.lights[*light].casts).collect();
+    if let Some(unknown) = wanted.iter().find(|name| !casting.iter().any(|light| is_called(*light, name))) {
+        let known: Vec<&str> = casting.iter().map(|light| names[*light].as_str()).collect();
         return Err(Usage(format!("--light {unknown:?}: the lights that cast shadows are {}", known.join(", "))).into());
     }
-    let is_wanted =
-        |light: &str, own: &str| wanted.is_empty() || wanted.iter().any(|name| name == light || name == own);
-    let lamps = casting().filter(|(_, (light, own))| is_wanted(&light.name, own));
-    Ok(lamps.map(|(light, (of, name))| Lamp { light, name: name.clone(), views: vec![of.view] }).collect())
+    let lamp = |(light, lamp): (usize, umbrage_gltf::Lamp)| {
+        let is_wanted = wanted.is_empty() || wanted.iter().any(|name| is_called(light, name));
+        let one = || Lamp { light, name: names[light].clone(), views: lamp.views, radius: lamp.radius };
+        (is_wanted && scene.lights[light].casts).then(one)
+    };
+    Ok(lamps.into_iter().enumerate().filter_map(lamp).collect())
 }
 
 /// A recipe as it is written, or as a TOML file holds it; `rsl,` and the parameters of that language's `shadow()` are one for maps of `map_size` texels a side.

@@ -14,6 +14,7 @@ struct Rule {
 }
 
 const EVERY: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-io"];
+const COMMAND: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-io", "umbrage-gltf"];
 const FIGURES: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-report"];
 const PROPERTIES: &[&str] = &["proptest"];
 
@@ -95,7 +96,7 @@ const RULES: &[Rule] = &[
     Rule { package: "umbrage-figures", arrows: FIGURES, outside: &["anyhow", "clap", "glam", "rayon"], tests: &[] },
     Rule {
         package: "umbrage-cli",
-        arrows: EVERY,
+        arrows: COMMAND,
         outside: &["anyhow", "clap", "clap_complete", "clap_mangen", "ctrlc", "glam", "rayon", "serde_json"],
         tests: &[],
     },
