@@ -9,6 +9,12 @@ fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).expect("a folder");
+    let scenes = folder.join("fixtures/scenes");
+    std::fs::create_dir_all(&scenes).expect("a folder");
+    for name in ["suzi.glb", "bunny.glb"] {
+        let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/scenes").join(name);
+        std::fs::copy(kept, scenes.join(name)).expect("a scene");
+    }
     std::fs::write(folder.join("points.csv"), "x,y,z,nx,ny,nz\n60,0,0,0,1,0\n150,0,150,0,1,0\n").expect("a file");
     folder
 }
@@ -33,7 +39,7 @@ fn lines(text: &str) -> Vec<&str> {
 fn every_example_of_help_runs() {
     let folder = folder("examples-help");
     // Maps are baked before they are asked about.
-    for command in ["render", "shadow", "bake", "info", "lookup", "recipes", "scenes"] {
+    for command in ["render", "shadow", "bake", "export", "info", "lookup", "recipes", "scenes"] {
         let help = shell(&folder, &format!("umbrage {command} --help"));
         let (_, examples) = help.split_once("Examples:").expect("examples");
         let examples = lines(examples);
