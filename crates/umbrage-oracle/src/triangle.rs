@@ -22,6 +22,19 @@ impl Triangle {
         (a.max(b).max(c) - a.min(b).min(c)).max_element()
     }
 
+    /// The barycentric weights of a point of its plane, clamped to the triangle; all of the first corner where it has no area.
+    pub fn weights(&self, at: DVec3) -> DVec3 {
+        let [a, b, c] = self.corners;
+        let (normal, from) = ((b - a).cross(c - a), at - a);
+        let double_area = normal.length_squared();
+        if double_area <= 0.0 {
+            return DVec3::X;
+        }
+        let v = (from.cross(c - a).dot(normal) / double_area).clamp(0.0, 1.0);
+        let w = ((b - a).cross(from).dot(normal) / double_area).clamp(0.0, 1.0 - v);
+        DVec3::new(1.0 - v - w, v, w)
+    }
+
     /// Its point that is nearest to another (Ericson 2005, 5.1.5).
     pub fn nearest(&self, at: DVec3) -> DVec3 {
         let [a, b, c] = self.corners;

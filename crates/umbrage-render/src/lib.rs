@@ -38,4 +38,4 @@ pub use picture::{Frame, NOTHING, Picture, picture, picture_where};
 pub use planar::{Ground, Planar};
 pub use receivers::receivers;
 
-pub use soup::Soup;
+pub use soup::{Soup, alpha_test};

@@ -1,4 +1,4 @@
-//! Meshes, bicubic patches, materials, lights and the gallery of the papers' scenes.
+//! Meshes, bicubic patches, materials, textures, lights and the gallery of the papers' scenes.
 //!
 //! Pure data: a [`Scene`] is objects, lights and a camera, and nothing in it is drawn or cast here. Cameras and lights are
 //! [`umbrage_plane::View`]s, whose conventions (right-handed world, texel rows from the top) hold throughout; y is up in
@@ -21,8 +21,10 @@ mod light;
 mod mesh;
 mod patch;
 mod scene;
+mod skin;
 mod solids;
 mod teapot;
+mod texture;
 pub mod tree;
 mod turned;
 
@@ -32,4 +34,6 @@ pub use light::Light;
 pub use mesh::{Mesh, MeshError};
 pub use patch::{Basis, Patch};
 pub use scene::{Material, Object, Scene, Shape};
+pub use skin::Skin;
 pub use teapot::utah_teapot;
+pub use texture::{Interpolation, Texture, TextureError, Wrap};
