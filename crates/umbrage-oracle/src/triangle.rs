@@ -22,16 +22,18 @@ impl Triangle {
         (a.max(b).max(c) - a.min(b).min(c)).max_element()
     }
 
-    /// The barycentric weights of a point of its plane, clamped to the triangle; all of the first corner where it has no area.
+    /// The barycentric weights of a point of its plane, clamped to the triangle; all of the first corner where it has no area, and for a
+    /// point that is not finite.
     pub fn weights(&self, at: DVec3) -> DVec3 {
         let [a, b, c] = self.corners;
         let (normal, from) = ((b - a).cross(c - a), at - a);
-        let double_area = normal.length_squared();
-        if double_area <= 0.0 {
+        let squared = normal.length_squared();
+        let (v, w) = (from.cross(c - a).dot(normal) / squared, (b - a).cross(from).dot(normal) / squared);
+        if v.is_nan() || w.is_nan() {
             return DVec3::X;
         }
-        let v = (from.cross(c - a).dot(normal) / double_area).clamp(0.0, 1.0);
-        let w = ((b - a).cross(from).dot(normal) / double_area).clamp(0.0, 1.0 - v);
+        let v = v.clamp(0.0, 1.0);
+        let w = w.clamp(0.0, 1.0 - v);
         DVec3::new(1.0 - v - w, v, w)
     }
 

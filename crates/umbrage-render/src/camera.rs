@@ -1,4 +1,5 @@
 use crate::Soup;
+use crate::weights::weights;
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
 use umbrage_bake::Masks;
 use umbrage_plane::{Cells, Facet, Facing, SurfacePoint, View};
@@ -139,11 +140,13 @@ impl Gather<'_> {
         let mut sum = Vec3::ZERO;
         for &(position, facet) in members {
             let facet = &facets[facet as usize];
+            let skin = self.soup.skin(facet.triangle);
             // They are of one object: all have a texture or none.
-            let Some((skin, [a, b, c])) = self.soup.texture(facet.triangle) else { return Vec3::ONE };
+            if skin.texture.is_none() {
+                return Vec3::ONE;
+            }
             let at = self.view.world_at(position, facet.plane.at(position));
-            let DVec3 { x, y, z } = weights(at, self.soup.corners(facet.triangle).0).unwrap_or(DVec3::X);
-            sum += skin.colour(a.as_dvec2() * x + b.as_dvec2() * y + c.as_dvec2() * z);
+            sum += skin.colour(self.soup.uv(facet.triangle, at));
         }
         sum / members.len() as f32
     }
@@ -204,18 +207,4 @@ impl Surface {
 fn interpolate(at: DVec3, triangle: [DVec3; 3], [a, b, c]: [Vec3; 3]) -> Vec3 {
     let Some(weights) = weights(at, triangle) else { return a };
     (a.as_dvec3() * weights.x + b.as_dvec3() * weights.y + c.as_dvec3() * weights.z).as_vec3().normalize_or(a)
-}
-
-/// The barycentric weights of a point of a triangle's plane, clamped to the triangle; `None` where it has no area.
-fn weights(at: DVec3, [a, b, c]: [DVec3; 3]) -> Option<DVec3> {
-    let (ab, ac, ap) = (b - a, c - a, at - a);
-    let (d00, d01, d11) = (ab.dot(ab), ab.dot(ac), ac.dot(ac));
-    let (d20, d21) = (ap.dot(ab), ap.dot(ac));
-    let area = d00 * d11 - d01 * d01;
-    if area <= 0.0 {
-        return None;
-    }
-    let v = ((d11 * d20 - d01 * d21) / area).clamp(0.0, 1.0);
-    let w = ((d00 * d21 - d01 * d20) / area).clamp(0.0, 1.0 - v);
-    Some(DVec3::new(1.0 - v - w, v, w))
 }

@@ -1,4 +1,5 @@
-use glam::{DVec3, Vec2, Vec3};
+use crate::weights::weights;
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use std::borrow::Cow;
 use umbrage_bake::{Caster, Mask, MaskPlace};
 use umbrage_plane::View;
@@ -131,10 +132,17 @@ impl<'a> Soup<'a> {
         )
     }
 
-    /// The skin of a triangle and its corners' places in the texture; `None` where it has none.
-    pub(crate) fn texture(&self, triangle: u32) -> Option<(&Skin, [Vec2; 3])> {
+    /// The skin of a triangle's object.
+    pub(crate) fn skin(&self, triangle: u32) -> &Skin {
+        self.find(triangle).0.skin
+    }
+
+    /// Where a point of a triangle, in world space, lies in the texture.
+    pub(crate) fn uv(&self, triangle: u32, at: DVec3) -> DVec2 {
         let (piece, local) = self.find(triangle);
-        piece.skin.texture.is_some().then(|| (piece.skin, piece.mesh.corner_uvs(local)))
+        let weights = weights(at, piece.triangle(self.origin, local).corners).unwrap_or(DVec3::X);
+        let [a, b, c] = piece.mesh.corner_uvs(local).map(Vec2::as_dvec2);
+        a * weights.x + b * weights.y + c * weights.z
     }
 
     fn world(&self, position: Vec3) -> DVec3 {
