@@ -70,13 +70,16 @@ fn spot() -> View {
 }
 
 /// A board above a floor.
-fn scene(board: Object, view: View) -> Scene {
+fn scene(board: Object, view: &View) -> Scene {
     let eye = DVec3::new(2.0, 15.0, 9.0);
     Scene {
         name: "cut-out".into(),
         origin: DVec3::ZERO,
         objects: vec![sheet("floor", square(Vec2::splat(-12.0), Vec2::splat(12.0), 0.0)), board],
-        lights: vec![Light { view, ..Light::point("lamp", eye, DVec3::ZERO, 60.0, 1.0, 90.0, UVec2::ONE).unwrap() }],
+        lights: vec![Light {
+            view: *view,
+            ..Light::point("lamp", eye, DVec3::ZERO, 60.0, 1.0, 90.0, UVec2::ONE).unwrap()
+        }],
         ambient: Vec3::ONE,
         background: Vec3::ZERO,
         camera: View::perspective(eye, DVec3::new(0.0, 0.0, -0.5), DVec3::Y, 1.0, 1.0, 90.0, UVec2::splat(96)).unwrap(),
@@ -121,7 +124,7 @@ fn rms(found: &Picture, right: &Picture) -> (f64, f64) {
 #[test]
 fn rays_find_the_shadow_of_a_sawn_board_and_the_camera_sees_through() {
     for view in [sun(), spot()] {
-        let (cut, sawn) = (traced(&scene(masked(), view)), traced(&scene(sawn(), view)));
+        let (cut, sawn) = (traced(&scene(masked(), &view)), traced(&scene(sawn(), &view)));
         assert_eq!(cut.object, sawn.object);
         assert_eq!(cut.depth, sawn.depth);
         // Not to the bit: rays along the border of a square may go either way.
@@ -135,7 +138,7 @@ fn rays_find_the_shadow_of_a_sawn_board_and_the_camera_sees_through() {
 #[test]
 fn maps_find_the_shadow_of_a_cut_out() {
     for view in [sun(), spot()] {
-        let (cut, sawn) = (scene(masked(), view), scene(sawn(), view));
+        let (cut, sawn) = (scene(masked(), &view), scene(sawn(), &view));
         let truth = traced(&cut);
         for (text, most) in [
             ("auto", 0.01),
@@ -156,7 +159,7 @@ fn maps_find_the_shadow_of_a_cut_out() {
 #[test]
 fn tags_and_planar_shadows_have_the_same_holes() {
     for view in [sun(), spot()] {
-        let scenes = [scene(masked(), view), scene(sawn(), view)];
+        let scenes = [scene(masked(), &view), scene(sawn(), &view)];
         let tags = scenes.each_ref().map(|scene| bake_tags(&view, Soup::casters(scene, &view).casting()));
         let texels = (0..512 * 512).map(|i| IVec2::new(i % 512, i / 512));
         let differ = texels.filter(|texel| tags[0].id(*texel) != tags[1].id(*texel)).count();
@@ -176,7 +179,7 @@ fn tags_and_planar_shadows_have_the_same_holes() {
 fn every_moment_has_its_own_holes() {
     let uvs = board().uvs.iter().map(|uv| *uv + Vec2::X / SQUARES as f32).collect();
     let moved = sheet("board", Mesh { uvs, ..board() }).with_skin(masked().skin);
-    let scenes = [scene(masked(), sun()), scene(moved, sun())];
+    let scenes = [scene(masked(), &sun()), scene(moved, &sun())];
     let moments = scenes.each_ref();
     // Under the middle of each square of the board, which the sun throws aside.
     let aside = DVec3::new(6.0, 20.0, 4.0) * (f64::from(HEIGHT) / 20.0);
@@ -204,7 +207,7 @@ fn every_moment_has_its_own_holes() {
 #[test]
 fn light_that_passes_a_cut_out_is_dimmed_where_it_is_there() {
     let glass = Object { passes: Vec3::new(0.5, 0.25, 0.0), ..masked() };
-    let scene = scene(glass, spot());
+    let scene = scene(glass, &spot());
     let (found, truth) = (mapped(&scene, "auto"), traced(&scene));
     let (all, inner) = rms(&found, &truth);
     assert!(all < 0.02 && inner < 0.005, "{all:.4} in all, {inner:.5} away from edges");
@@ -214,7 +217,7 @@ fn light_that_passes_a_cut_out_is_dimmed_where_it_is_there() {
 
 #[test]
 fn far_from_the_origin_nothing_changes() {
-    let near = scene(masked(), spot());
+    let near = scene(masked(), &spot());
     let far = near.clone().moved(DVec3::new(4e6, -2e6, 1e6)).unwrap();
     for shot in [traced, |scene: &Scene| mapped(scene, "auto")] {
         let [near, far] = [&near, &far].map(shot);
@@ -228,7 +231,7 @@ fn far_from_the_origin_nothing_changes() {
 fn plan(board: Object) -> Scene {
     let eye = DVec3::Y * 20.0;
     let camera = View::orthographic(eye, DVec3::ZERO, DVec3::NEG_Z, 6.0, 1.0, 60.0, UVec2::splat(12)).unwrap();
-    Scene { camera, lights: Vec::new(), ..scene(board, sun()) }
+    Scene { camera, lights: Vec::new(), ..scene(board, &sun()) }
 }
 
 #[test]
@@ -261,7 +264,7 @@ fn a_texture_lies_on_the_surface_and_not_on_the_picture() {
     // Over the middle half of the texture red goes from 0 at its left to 1 at its right.
     let uvs = [Vec2::Y, Vec2::ONE, Vec2::ZERO, Vec2::X].map(|uv| uv * 0.5 + 0.25).to_vec();
     let board = sheet("board", Mesh { uvs, ..board() }).with_skin(Skin::textured(ramp));
-    let mut scene = scene(board, sun());
+    let mut scene = scene(board, &sun());
     scene.lights.clear();
     let eye = DVec3::new(-9.0, 6.0, 2.0);
     scene.camera = View::perspective(eye, DVec3::Y * 3.0, DVec3::Y, 1.0, 0.5, 90.0, UVec2::splat(64)).unwrap();
@@ -279,7 +282,7 @@ fn a_texture_lies_on_the_surface_and_not_on_the_picture() {
 fn what_is_cut_away_altogether_is_as_if_it_were_not() {
     let ball = Object::solid("ball", Mesh::sphere(Vec3::Y * 4.0, 2.0, 32), Material::matt(Vec3::ONE));
     let gone = ball.with_skin(Skin { texture: None, cutoff: Some(1.5) });
-    let scene = scene(gone, spot());
+    let scene = scene(gone, &spot());
     for seen in [traced(&scene), mapped(&scene, "auto"), mapped(&scene, "woo92"), mapped(&scene, "wang-molnar94")] {
         assert!(!seen.object.contains(&1));
         assert!(seen.shadow[0].iter().all(|shadow| *shadow == 0.0));
