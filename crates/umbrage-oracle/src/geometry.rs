@@ -7,7 +7,7 @@ use obvhs::bvh2::builder::build_bvh2;
 use obvhs::bvh2::{Bvh2, node::Bvh2Node};
 use std::time::Duration;
 use umbrage_plane::{SurfacePoint, View};
-use umbrage_scene::{Object, Scene, Skin};
+use umbrage_scene::{Cover, Object, Scene};
 
 /// A triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +49,7 @@ pub struct Hit {
 /// Positions are the f32 numbers of the scene, relative to its origin; everything after them is f64, and points and directions
 /// that are asked about are of world space. No ray slips between triangles
 /// that share an edge or a vertex (Woop, Benthin & Wald 2013); a ray through the edge itself meets both. Where the
-/// [`Skin`] of a scene's object says that nothing is there, no ray meets it.
+/// [`Cover`] of a scene's object says that nothing is there, no ray meets it.
 ///
 /// Where a ray begins or ends on a surface, that surface is left out because it holds the point, not because it is near: what
 /// counts as *holding* is the rounding of f64, some 10⁻¹² of the point's coordinates about the origin and of the face's size, so
@@ -67,7 +67,7 @@ pub struct Geometry {
 /// Where nothing is of faces that have holes.
 struct Holes {
     /// By object.
-    skins: Vec<Skin>,
+    covers: Vec<Cover>,
     /// Places in the texture of each face's corners.
     uvs: Vec<[Vec2; 3]>,
 }
@@ -119,7 +119,7 @@ impl Geometry {
     pub(crate) fn about_origin(scene: &Scene, view: &View, keep: impl Fn(&Object) -> bool) -> Self {
         let (mut faces, mut uvs) = (Vec::new(), Vec::new());
         let kept = |(_, object): &(usize, &Object)| keep(object);
-        let holes = scene.objects.iter().enumerate().filter(kept).any(|(_, object)| object.skin.has_holes());
+        let holes = scene.objects.iter().enumerate().filter(kept).any(|(_, object)| object.cover.has_holes());
         for (id, object) in scene.objects.iter().enumerate().filter(kept) {
             let mesh = object.shape.mesh_for(view);
             let face = |local: usize| Face { corners: mesh.corners(local), object: id as u32 };
@@ -135,7 +135,7 @@ impl Geometry {
         let body = |object: &Object| Body { casts: object.casts, solid: object.is_solid(), passes: object.passes };
         let bodies = scene.objects.iter().map(body).collect();
         let holes =
-            holes.then(|| Holes { skins: scene.objects.iter().map(|object| object.skin.clone()).collect(), uvs });
+            holes.then(|| Holes { covers: scene.objects.iter().map(|object| object.cover.clone()).collect(), uvs });
         Self { holes, ..Self::from_faces(faces, bodies) }
     }
 
@@ -345,15 +345,15 @@ impl Geometry {
 
     /// Whether anything of a face is at a place of it, relative to the origin.
     pub(crate) fn is_there(&self, face: u32, at: DVec3) -> bool {
-        let Some(Holes { skins, uvs }) = &self.holes else { return true };
+        let Some(Holes { covers, uvs }) = &self.holes else { return true };
         let face = face as usize;
-        let skin = &skins[self.faces[face].object as usize];
-        if !skin.has_holes() {
+        let cover = &covers[self.faces[face].object as usize];
+        if !cover.has_holes() {
             return true;
         }
         let [a, b, c] = uvs[face].map(Vec2::as_dvec2);
         let DVec3 { x, y, z } = self.triangles[face].weights(at);
-        skin.is_there(a * x + b * y + c * z)
+        cover.is_there(a * x + b * y + c * z)
     }
 
     /// [`Ray::walk`] over all faces, but through their holes.

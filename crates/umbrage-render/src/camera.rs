@@ -140,13 +140,13 @@ impl Gather<'_> {
         let mut sum = Vec3::ZERO;
         for &(position, facet) in members {
             let facet = &facets[facet as usize];
-            let skin = self.soup.skin(facet.triangle);
+            let cover = self.soup.cover(facet.triangle);
             // They are of one object: all have a texture or none.
-            if skin.texture.is_none() {
+            if cover.texture.is_none() {
                 return Vec3::ONE;
             }
             let at = self.view.world_at(position, facet.plane.at(position));
-            sum += skin.colour(self.soup.uv(facet.triangle, at));
+            sum += cover.colour(self.soup.uv(facet.triangle, at));
         }
         sum / members.len() as f32
     }

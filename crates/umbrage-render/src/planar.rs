@@ -57,11 +57,11 @@ impl Planar {
             let (index, Triangle { corners: [a, b, c], .. }) = flat[place.triangle as usize];
             let at = a * place.weights.x + b * place.weights.y + c * place.weights.z;
             let thrown_by = flatten.back(at, soup.corners(index).0);
-            soup.skin(index).is_there(soup.uv(index, thrown_by))
+            soup.cover(index).is_there(soup.uv(index, thrown_by))
         };
         let casters = flat.iter().map(|&(index, triangle)| {
             let caster = Caster::from(triangle);
-            if soup.skin(index).has_holes() { caster.with_mask(&alpha_test) } else { caster }
+            if soup.cover(index).has_holes() { caster.with_mask(&alpha_test) } else { caster }
         });
         let mask = bake(&looking_down, casters, &First, Cull::None).map;
         Ok(Self { mask, ground: Ground { normal, ..ground } })

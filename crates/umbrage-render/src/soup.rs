@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use umbrage_bake::{Caster, Mask, MaskPlace};
 use umbrage_plane::View;
 use umbrage_raster::Triangle;
-use umbrage_scene::{Mesh, MeshError, Object, Scene, Skin};
+use umbrage_scene::{Cover, Mesh, MeshError, Object, Scene};
 
 /// The triangles of a scene for one view, and the way back from a triangle's index to its mesh.
 ///
@@ -17,16 +17,16 @@ pub struct Soup<'a> {
     alpha_test: Box<dyn Fn(&MaskPlace) -> bool + Send + Sync + 'a>,
 }
 
-/// Where something of a scene's objects is, by their [skins](Skin): the [`Mask`] of all [casters](Soup::into_casting) of the scene.
+/// Where something of a scene's objects is, by their [covers](Cover): the [`Mask`] of all [casters](Soup::into_casting) of the scene.
 pub fn alpha_test(scene: &Scene) -> impl Fn(&MaskPlace) -> bool + Send + Sync + '_ {
-    |place| scene.objects[place.object as usize].skin.is_there(place.uv)
+    |place| scene.objects[place.object as usize].cover.is_there(place.uv)
 }
 
 struct Piece<'a> {
     object: u32,
     sheet: bool,
     passes: Vec3,
-    skin: &'a Skin,
+    cover: &'a Cover,
     first: u32,
     mesh: Cow<'a, Mesh>,
 }
@@ -40,7 +40,7 @@ impl Piece<'_> {
     fn caster<'m>(&self, origin: DVec3, local: usize, alpha_test: Mask<'m>) -> Caster<'m> {
         let normals = self.mesh.triangles[local].map(|vertex| self.mesh.normals[vertex as usize]);
         let caster = Caster::from(self.triangle(origin, local)).with_passes(self.passes).with_normals(normals);
-        if self.skin.has_holes() {
+        if self.cover.has_holes() {
             return caster.with_uvs(self.mesh.corner_uvs(local)).with_mask(alpha_test);
         }
         caster
@@ -78,8 +78,8 @@ impl<'a> Soup<'a> {
                 panic!("object {id}, {:?}: {fault}", object.name);
             }
             let count = mesh.triangles.len() as u32;
-            let (sheet, passes, skin) = (!object.is_solid(), object.passes, &object.skin);
-            pieces.push(Piece { object: id as u32, sheet, passes, skin, first, mesh });
+            let (sheet, passes, cover) = (!object.is_solid(), object.passes, &object.cover);
+            pieces.push(Piece { object: id as u32, sheet, passes, cover, first, mesh });
             first += count;
         }
         Self { origin: scene.origin, pieces, alpha_test: Box::new(alpha_test(scene)) }
@@ -103,7 +103,7 @@ impl<'a> Soup<'a> {
             .flat_map(|piece: &Piece| (0..piece.mesh.triangles.len()).map(|local| piece.triangle(self.origin, local)))
     }
 
-    /// The same triangles, each with what passes its object, the shading normals of its mesh, and the holes of its skin.
+    /// The same triangles, each with what passes its object, the shading normals of its mesh, and the holes of its cover.
     pub fn casting(&self) -> impl Iterator<Item = Caster<'_>> {
         let caster = |piece, local| Piece::caster(piece, self.origin, local, &*self.alpha_test);
         self.pieces.iter().flat_map(move |piece| (0..piece.mesh.triangles.len()).map(move |local| caster(piece, local)))
@@ -132,9 +132,9 @@ impl<'a> Soup<'a> {
         )
     }
 
-    /// The skin of a triangle's object.
-    pub(crate) fn skin(&self, triangle: u32) -> &Skin {
-        self.find(triangle).0.skin
+    /// The cover of a triangle's object.
+    pub(crate) fn cover(&self, triangle: u32) -> &Cover {
+        self.find(triangle).0.cover
     }
 
     /// Where a point of a triangle, in world space, lies in the texture.

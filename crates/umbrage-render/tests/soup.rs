@@ -6,7 +6,7 @@ use umbrage_depth::{DepthMap, First};
 use umbrage_plane::SurfacePoint;
 use umbrage_raster::{Cull, Triangle};
 use umbrage_render::{Soup, alpha_test};
-use umbrage_scene::{Object, Scene, Shape, Skin, gallery};
+use umbrage_scene::{Cover, Object, Scene, Shape, gallery};
 
 #[test]
 fn r87_5_only_casters_are_drawn_and_ids_and_sheets_reach_the_facets() {
@@ -52,7 +52,7 @@ fn triangles_come_with_what_passes_their_object_and_the_normals_of_their_mesh() 
 #[test]
 fn what_has_holes_comes_with_its_places_in_the_texture_and_a_mask() {
     let mut scene: Scene = gallery::sphere_plane();
-    scene.objects[0].skin = Skin { texture: None, cutoff: Some(2.0) };
+    scene.objects[0].cover = Cover { texture: None, cutoff: Some(2.0) };
     let Shape::Mesh(mesh) = &mut scene.objects[0].shape else { panic!("a mesh") };
     mesh.uvs = mesh.positions.iter().map(|at| at.truncate()).collect();
     let uvs = mesh.corner_uvs(17);

@@ -14,6 +14,7 @@
 //! assert!(toward_light.z > 0.0 && arriving.x > 0.0);
 //! ```
 
+mod cover;
 mod dice;
 mod framing;
 pub mod gallery;
@@ -21,19 +22,18 @@ mod light;
 mod mesh;
 mod patch;
 mod scene;
-mod skin;
 mod solids;
 mod teapot;
 mod texture;
 pub mod tree;
 mod turned;
 
+pub use cover::Cover;
 pub use dice::{MOST_PIECES, dice};
 pub use framing::{Ball, FrameError, fit};
 pub use light::Light;
 pub use mesh::{Mesh, MeshError};
 pub use patch::{Basis, Patch};
 pub use scene::{Material, Object, Scene, Shape};
-pub use skin::Skin;
 pub use teapot::utah_teapot;
 pub use texture::{Interpolation, Texture, TextureError, Wrap};

@@ -4,20 +4,20 @@ use glam::{DVec3, DVec4, UVec2, Vec2, Vec3, Vec4};
 use std::sync::Arc;
 use umbrage_oracle::{Geometry, RayCast};
 use umbrage_plane::{SurfacePoint, View};
-use umbrage_scene::{Interpolation, Material, Mesh, Object, Scene, Shape, Skin, Texture, Wrap, gallery};
+use umbrage_scene::{Cover, Interpolation, Material, Mesh, Object, Scene, Shape, Texture, Wrap, gallery};
 
 /// Square sheets two units wide, one above another from y = 1, of which `half` are there for x < 0 alone. The texture repeats, and the
 /// sheets lie far out in it.
 fn sheets(half: &[bool], passes: Vec3) -> Scene {
     let texels = vec![Vec4::ONE, Vec4::ZERO];
     let texture = Texture::linear(UVec2::new(2, 1), texels).unwrap().with_wrap([Wrap::Repeat; 2]);
-    let skin = Skin::cut_out(Arc::new(texture.with_interpolation(Interpolation::Nearest)), 0.5);
+    let cover = Cover::cut_out(Arc::new(texture.with_interpolation(Interpolation::Nearest)), 0.5);
     let sheet = |(&half, height): (&bool, f32)| {
         let corners = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
         let mesh = Mesh::sheet(corners.map(|(x, z)| Vec3::new(x, height, z)), 1);
         let uvs = [Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::ONE].map(|uv| uv + Vec2::new(7.0, -3.0)).to_vec();
         let sheet = Object::two_sided("sheet", Shape::Mesh(Mesh { uvs, ..mesh }), Material::matt(Vec3::ONE));
-        Object { passes, skin: if half { skin.clone() } else { Skin::default() }, ..sheet }
+        Object { passes, cover: if half { cover.clone() } else { Cover::default() }, ..sheet }
     };
     let objects = half.iter().zip((1u8..).map(f32::from)).map(sheet).collect();
     Scene { objects, lights: Vec::new(), ..gallery::sphere_plane() }
@@ -63,8 +63,8 @@ fn a_solid_with_holes_is_lit_from_within() {
     let outside = SurfacePoint::at(Vec3::X * 3.0, Vec3::NEG_X);
     // Above its cutoff all is there, so that rays alone decide; below it nothing is.
     for (cutoff, dark, solid) in [(None, 1.0, true), (Some(0.5), 1.0, false), (Some(2.0), 0.0, false)] {
-        let skin = Skin { texture: None, cutoff };
-        let scene = Scene { objects: vec![cube.clone().with_skin(skin)], ..gallery::sphere_plane() };
+        let cover = Cover { texture: None, cutoff };
+        let scene = Scene { objects: vec![cube.clone().with_cover(cover)], ..gallery::sphere_plane() };
         let geometry = Geometry::new(&scene, &view());
         assert_eq!(RayCast::everywhere(&geometry, lamp).at(&outside), dark, "{cutoff:?}");
         assert_eq!(geometry.body(0).solid, solid);

@@ -6,7 +6,7 @@ use umbrage_oracle::{
 };
 use umbrage_plane::{Rules, SurfacePoint, View};
 use umbrage_sample::Key;
-use umbrage_scene::{Material, Mesh, Object, Scene, Shape, Skin};
+use umbrage_scene::{Cover, Material, Mesh, Object, Scene, Shape};
 use umbrage_shadow::Shadow;
 
 const SOLID: Body = Body { casts: true, solid: true, passes: Vec3::ZERO };
@@ -145,7 +145,7 @@ fn x5_a_scene_is_all_its_objects() {
         receives: true,
         solid: !casts,
         passes: Vec3::ZERO,
-        skin: Skin::default(),
+        cover: Cover::default(),
     };
     let scene = Scene {
         name: String::new(),

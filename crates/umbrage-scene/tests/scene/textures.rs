@@ -4,7 +4,7 @@ use glam::{DVec2, UVec2, Vec2, Vec3, Vec4};
 use proptest::prelude::*;
 use std::sync::Arc;
 use umbrage_scene::{
-    Interpolation, Material, Mesh, MeshError, Object, Shape, Skin, Texture, TextureError, Wrap, gallery,
+    Cover, Interpolation, Material, Mesh, MeshError, Object, Shape, Texture, TextureError, Wrap, gallery,
 };
 
 /// Three texels across and two down: red counts columns, green rows; alpha is 1 but in the last texel.
@@ -94,32 +94,32 @@ fn what_is_no_image_is_refused() {
 }
 
 #[test]
-fn a_skin_has_holes_where_alpha_is_below_its_cutoff() {
+fn a_cover_has_holes_where_alpha_is_below_its_cutoff() {
     let half = Texture::linear(UVec2::new(2, 1), vec![Vec4::splat(0.5), Vec4::ZERO]).unwrap();
     let half = Arc::new(half.with_interpolation(Interpolation::Nearest));
     let [left, right] = [DVec2::new(0.25, 0.5), DVec2::new(0.75, 0.5)];
-    let there = |cutoff: f32| [left, right].map(|uv| Skin::cut_out(Arc::clone(&half), cutoff).is_there(uv));
+    let there = |cutoff: f32| [left, right].map(|uv| Cover::cut_out(Arc::clone(&half), cutoff).is_there(uv));
     assert_eq!(there(0.5), [true, false], "equal is there");
     assert_eq!(there(0.500_001), [false, false]);
     assert_eq!(there(0.0), [true, true]);
     // An alpha factor f is divided out: there where alpha × f ≥ cutoff, for f = 0 too.
     assert_eq!(there(0.5 / 0.0), [false, false]);
     assert_eq!(there(f32::NAN), [true, true]);
-    let whole = Skin::textured(Arc::clone(&half));
+    let whole = Cover::textured(Arc::clone(&half));
     assert!(!whole.has_holes() && whole.is_there(right));
     assert_eq!(whole.colour(left), Vec3::splat(0.5));
-    let bare = Skin { texture: None, cutoff: Some(0.5) };
+    let bare = Cover { texture: None, cutoff: Some(0.5) };
     assert!(bare.has_holes() && bare.is_there(left) && bare.colour(left) == Vec3::ONE);
-    assert!(!Skin { texture: None, cutoff: Some(2.0) }.is_there(left));
+    assert!(!Cover { texture: None, cutoff: Some(2.0) }.is_there(left));
 }
 
 #[test]
 fn a_solid_with_holes_is_none() {
     let cube = Object::solid("cube", Mesh::cuboid(Vec3::ZERO, Vec3::ONE), Material::matt(Vec3::ONE));
-    let skin = |cutoff| Skin { texture: Some(Arc::new(counted())), cutoff };
-    assert!(cube.is_solid() && cube.clone().with_skin(skin(None)).is_solid());
-    assert!(!cube.with_skin(skin(Some(0.5))).is_solid());
-    assert!(gallery::sphere_plane().objects.iter().all(|object| object.skin == Skin::default()));
+    let cover = |cutoff| Cover { texture: Some(Arc::new(counted())), cutoff };
+    assert!(cube.is_solid() && cube.clone().with_cover(cover(None)).is_solid());
+    assert!(!cube.with_cover(cover(Some(0.5))).is_solid());
+    assert!(gallery::sphere_plane().objects.iter().all(|object| object.cover == Cover::default()));
     assert!(!Object::two_sided("none", Shape::Patches(vec![]), Material::matt(Vec3::ONE)).is_solid());
 }
 

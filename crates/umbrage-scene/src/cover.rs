@@ -7,7 +7,7 @@ use std::sync::Arc;
 ///
 /// Both are found by the place in the texture that [`Mesh::uvs`](crate::Mesh::uvs) give.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Skin {
+pub struct Cover {
     /// Its colour multiplies [`Material::diffuse`](crate::Material::diffuse). Without one, colour and alpha are 1.
     pub texture: Option<Arc<Texture>>,
     /// The alpha test: nothing of the object is where the texture's alpha is below this. Light passes there, and the camera sees what is
@@ -16,7 +16,7 @@ pub struct Skin {
     pub cutoff: Option<f32>,
 }
 
-impl Skin {
+impl Cover {
     /// A texture without holes, whatever its alpha.
     pub fn textured(texture: Arc<Texture>) -> Self {
         Self { texture: Some(texture), cutoff: None }
@@ -27,7 +27,7 @@ impl Skin {
         Self { texture: Some(texture), cutoff: Some(cutoff) }
     }
 
-    /// Whether [`Skin::is_there`] has to be asked.
+    /// Whether [`Cover::is_there`] has to be asked.
     pub fn has_holes(&self) -> bool {
         self.cutoff.is_some()
     }

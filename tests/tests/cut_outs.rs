@@ -10,7 +10,7 @@ use umbrage_plane::{SurfacePoint, View};
 use umbrage_recipe::Recipe;
 use umbrage_render::{Frame, Ground, NOTHING, Picture, Planar, Soup, light_shadow, picture};
 use umbrage_sample::Key;
-use umbrage_scene::{Interpolation, Light, Material, Mesh, Object, Scene, Shape, Skin, Texture, Wrap};
+use umbrage_scene::{Cover, Interpolation, Light, Material, Mesh, Object, Scene, Shape, Texture, Wrap};
 
 /// Squares along a side of the board, which is 8 units wide and 3 above the floor.
 const SQUARES: u32 = 4;
@@ -46,7 +46,7 @@ fn checks() -> Texture {
 }
 
 fn masked() -> Object {
-    sheet("board", board()).with_skin(Skin::cut_out(Arc::new(checks()), 0.5))
+    sheet("board", board()).with_cover(Cover::cut_out(Arc::new(checks()), 0.5))
 }
 
 /// The same with a saw.
@@ -178,7 +178,7 @@ fn tags_and_planar_shadows_have_the_same_holes() {
 #[test]
 fn every_moment_has_its_own_holes() {
     let uvs = board().uvs.iter().map(|uv| *uv + Vec2::X / SQUARES as f32).collect();
-    let moved = sheet("board", Mesh { uvs, ..board() }).with_skin(masked().skin);
+    let moved = sheet("board", Mesh { uvs, ..board() }).with_cover(masked().cover);
     let scenes = [scene(masked(), &sun()), scene(moved, &sun())];
     let moments = scenes.each_ref();
     // Under the middle of each square of the board, which the sun throws aside.
@@ -237,7 +237,7 @@ fn plan(board: Object) -> Scene {
 #[test]
 fn the_camera_sees_texels_where_they_lie_and_the_floor_through_holes() {
     let texture = Arc::new(checks());
-    let whole = sheet("board", board()).with_skin(Skin::textured(Arc::clone(&texture)));
+    let whole = sheet("board", board()).with_cover(Cover::textured(Arc::clone(&texture)));
     for (board, cut) in [(masked(), true), (whole, false)] {
         for frame in [FRAME, Frame::CENTRES, Frame { every_sample: true, ..Frame::default() }] {
             let seen = picture(&plan(board.clone()), &[], &frame);
@@ -263,7 +263,7 @@ fn a_texture_lies_on_the_surface_and_not_on_the_picture() {
     let ramp = Arc::new(ramp.with_wrap([Wrap::Clamp; 2]));
     // Over the middle half of the texture red goes from 0 at its left to 1 at its right.
     let uvs = [Vec2::Y, Vec2::ONE, Vec2::ZERO, Vec2::X].map(|uv| uv * 0.5 + 0.25).to_vec();
-    let board = sheet("board", Mesh { uvs, ..board() }).with_skin(Skin::textured(ramp));
+    let board = sheet("board", Mesh { uvs, ..board() }).with_cover(Cover::textured(ramp));
     let mut scene = scene(board, &sun());
     scene.lights.clear();
     let eye = DVec3::new(-9.0, 6.0, 2.0);
@@ -281,7 +281,7 @@ fn a_texture_lies_on_the_surface_and_not_on_the_picture() {
 #[test]
 fn what_is_cut_away_altogether_is_as_if_it_were_not() {
     let ball = Object::solid("ball", Mesh::sphere(Vec3::Y * 4.0, 2.0, 32), Material::matt(Vec3::ONE));
-    let gone = ball.with_skin(Skin { texture: None, cutoff: Some(1.5) });
+    let gone = ball.with_cover(Cover { texture: None, cutoff: Some(1.5) });
     let scene = scene(gone, &spot());
     for seen in [traced(&scene), mapped(&scene, "auto"), mapped(&scene, "woo92"), mapped(&scene, "wang-molnar94")] {
         assert!(!seen.object.contains(&1));
