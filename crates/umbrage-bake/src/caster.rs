@@ -1,5 +1,5 @@
 use crate::Mask;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use std::fmt;
 use umbrage_raster::Triangle;
 
@@ -27,12 +27,11 @@ use umbrage_raster::Triangle;
 /// # use umbrage_plane::View;
 /// # use umbrage_raster::{Cull, Triangle};
 /// // The left half of a square is there.
-/// let uvs = [[Vec2::ZERO, Vec2::X, Vec2::ONE], [Vec2::ZERO, Vec2::ONE, Vec2::Y]];
-/// let alpha = |at: &MaskPlace| at.mix(uvs[at.triangle as usize]).x < 0.5;
+/// let alpha = |at: &MaskPlace| at.uv.x < 0.5;
 /// let view = View::orthographic(DVec3::Z * 9.0, DVec3::ZERO, DVec3::Y, 16.0, 1.0, 20.0, UVec2::splat(32))?;
-/// let square = uvs.map(|uvs| {
+/// let square = [[Vec2::ZERO, Vec2::X, Vec2::ONE], [Vec2::ZERO, Vec2::ONE, Vec2::Y]].map(|uvs| {
 ///     let corners = uvs.map(|uv| (uv * 32.0 - 16.0).extend(0.0));
-///     Caster::from(Triangle::new(corners, 0, true)).with_mask(&alpha)
+///     Caster::from(Triangle::new(corners, 0, true)).with_uvs(uvs).with_mask(&alpha)
 /// });
 /// let map = bake(&view, square, &First, Cull::None).map;
 /// assert_eq!([15, 16].map(|x| map.depth(IVec2::new(x, 9))), [9.0, f32::INFINITY]);
@@ -49,6 +48,8 @@ pub struct Caster<'a> {
     /// The shading normals at its corners, in their order, of any length but 0; `None` for a flat triangle. Asked for by
     /// [`bake_by_normals`](crate::bake_by_normals) alone.
     pub normals: Option<[Vec3; 3]>,
+    /// Where its corners lie in a texture, in their order; all at (0, 0) if nobody says. Its mask alone learns of them.
+    pub uvs: [Vec2; 3],
     /// Who is asked, wherever the triangle would be seen, whether anything of it is there; `None` for a triangle without holes. Every
     /// kind of map asks, at each of its samples, and a [refined](crate::bake_refined) one at the slots of its links too. Where nothing
     /// is there the sample sees what is behind, as if the triangle had not been given. Holes between samples are not seen.
@@ -74,6 +75,12 @@ impl<'a> Caster<'a> {
         Self { normals: Some(normals), ..self }
     }
 
+    /// The same with places in a texture at its corners.
+    #[must_use]
+    pub fn with_uvs(self, uvs: [Vec2; 3]) -> Self {
+        Self { uvs, ..self }
+    }
+
     /// The same with holes, wherever the mask says that nothing is there.
     #[must_use]
     pub fn with_mask(self, mask: Mask<'a>) -> Self {
@@ -90,7 +97,7 @@ impl<'a> Caster<'a> {
 impl From<Triangle> for Caster<'_> {
     #[inline]
     fn from(triangle: Triangle) -> Self {
-        Self { triangle, passes: Vec3::ZERO, normals: None, mask: None }
+        Self { triangle, passes: Vec3::ZERO, normals: None, uvs: [Vec2::ZERO; 3], mask: None }
     }
 }
 
@@ -100,6 +107,7 @@ impl fmt::Debug for Caster<'_> {
             .field("triangle", &self.triangle)
             .field("passes", &self.passes)
             .field("normals", &self.normals)
+            .field("uvs", &self.uvs)
             .field("masked", &self.mask.is_some())
             .finish()
     }
@@ -112,6 +120,7 @@ impl PartialEq for Caster<'_> {
             (Some(own), Some(other)) => std::ptr::eq(own, other),
             (own, other) => own.is_none() && other.is_none(),
         };
-        same && (self.triangle, self.passes, self.normals) == (other.triangle, other.passes, other.normals)
+        let known = |caster: &Self| (caster.triangle, caster.passes, caster.normals, caster.uvs);
+        same && known(self) == known(other)
     }
 }

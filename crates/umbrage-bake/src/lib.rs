@@ -58,6 +58,7 @@ pub use caster::Caster;
 pub use deep::{BakedDeep, Deep, bake_deep};
 pub use facets::{BakedFacets, Refinement, bake_facets, bake_refined};
 pub use mask::{Mask, MaskPlace};
+pub use masks::Masks;
 pub use moments::mix_moments;
 pub use normals::bake_by_normals;
 pub use pass1::{Baked, advised_map_sizes, bake, bake_multi};

@@ -21,14 +21,20 @@ pub struct MaskPlace {
     /// perspective is in them. Each is within 0..=1 and they sum to 1, but for rounding; none is NaN. Where snapping leaves a sample just beside its
     /// triangle they are those of a place on its border, and of a triangle that is edge-on to the view those of some place of it.
     pub weights: DVec3,
+    /// The place in a texture: the [mean](Self::mix) of the [corners' own](crate::Caster::uvs).
+    pub uv: DVec2,
 }
 
 impl MaskPlace {
-    /// The mean of what is known at the corners, in their order, by the [weights](Self::weights): texture coordinates of the place, of those of
-    /// the corners.
+    /// The mean of what is known at the corners, in their order, by the [weights](Self::weights).
     #[must_use]
     pub fn mix(&self, corners: [Vec2; 3]) -> DVec2 {
-        let [a, b, c] = corners.map(Vec2::as_dvec2);
-        a * self.weights.x + b * self.weights.y + c * self.weights.z
+        mix(corners, self.weights)
     }
+}
+
+/// The mean of what is known at three corners by their weights.
+pub(crate) fn mix(corners: [Vec2; 3], weights: DVec3) -> DVec2 {
+    let [a, b, c] = corners.map(Vec2::as_dvec2);
+    a * weights.x + b * weights.y + c * weights.z
 }

@@ -1,13 +1,36 @@
 //! The masks of a bake, and where they are asked.
 
+use crate::mask::mix;
 use crate::rays::{places, ray};
 use crate::{Caster, Mask, MaskPlace};
-use glam::{DVec2, DVec3, IVec2, UVec2};
+use glam::{DVec2, DVec3, IVec2, UVec2, Vec2};
+use std::fmt;
 use umbrage_plane::{Facet, View};
 use umbrage_raster::{BIN, Bins, Coverage, Triangle};
 
-/// The masks of a bake's casters.
-pub(crate) struct Masks<'a> {
+/// The masks of casters that are drawn: what a bake asks, and whoever draws with [`Bins`] by himself.
+///
+/// ```
+/// use glam::{DVec3, UVec2, Vec3};
+/// use umbrage_bake::{Caster, MaskPlace, Masks};
+/// use umbrage_plane::{TexelRect, View};
+/// use umbrage_raster::{Bins, Cull, Triangle};
+///
+/// // Half of a triangle is not there.
+/// let view = View::orthographic(DVec3::Z * 9.0, DVec3::ZERO, DVec3::Y, 16.0, 1.0, 20.0, UVec2::splat(32))?;
+/// let half = |at: &MaskPlace| at.weights.x < 0.5;
+/// let corners = [(-16.0, 0.0), (16.0, -16.0), (16.0, 16.0)].map(|(x, y)| Vec3::new(x, y, 0.0));
+/// let caster = Caster::from(Triangle::new(corners, 0, true)).with_mask(&half);
+///
+/// let mut masks = Masks::new(&view);
+/// let triangles = [caster].map(|caster| masks.note(caster));
+/// let bins = Bins::new(&view, TexelRect::of_size(view.size()), Cull::None, triangles);
+/// let mut seen = [0; 32];
+/// masks.tile(&bins, UVec2::ZERO, |_, coverage| seen = coverage.rows);
+/// assert_eq!(seen[16], 0xffff_0000);
+/// # Ok::<(), umbrage_plane::ViewError>(())
+/// ```
+pub struct Masks<'a> {
     /// Its texel positions are what masks are asked at.
     view: View,
     masked: Vec<Masked<'a>>,
@@ -28,22 +51,22 @@ impl<'a> Masks<'a> {
     #[inline(always)]
     pub fn note(&mut self, caster: Caster<'a>) -> Triangle {
         if let Some(mask) = caster.mask {
-            self.add(mask, &caster.triangle);
+            self.add(mask, &caster);
         }
         self.given += 1;
         caster.triangle
     }
 
     #[cold]
-    fn add(&mut self, mask: Mask<'a>, triangle: &Triangle) {
+    fn add(&mut self, mask: Mask<'a>, caster: &Caster<'a>) {
         self.index.resize(self.given, UNMASKED);
         self.index.push(self.masked.len() as u32);
-        self.masked.push(Masked::new(&self.view, mask, triangle));
+        self.masked.push(Masked::new(&self.view, mask, caster));
     }
 
     /// The mask of a facet that has one.
     #[inline(always)]
-    pub fn of(&self, facet: &Facet) -> Option<&Masked<'a>> {
+    pub(crate) fn of(&self, facet: &Facet) -> Option<&Masked<'a>> {
         self.masked.get(*self.index.get(facet.triangle as usize)? as usize)
     }
 
@@ -84,15 +107,23 @@ impl<'a> Masks<'a> {
     }
 
     /// Whether anything of a facet is at a place of the map, in texels.
-    pub fn is_there(&self, masked: &Masked<'_>, facet: &Facet, at: DVec2) -> bool {
+    pub(crate) fn is_there(&self, masked: &Masked<'_>, facet: &Facet, at: DVec2) -> bool {
         let Facet { triangle, object, .. } = *facet;
-        (masked.mask)(&MaskPlace { triangle, object, weights: masked.weights(ray(&self.view, at)) })
+        let weights = masked.weights(ray(&self.view, at));
+        (masked.mask)(&MaskPlace { triangle, object, weights, uv: mix(masked.uvs, weights) })
+    }
+}
+
+impl fmt::Debug for Masks<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Masks").field("given", &self.given).field("masked", &self.masked.len()).finish_non_exhaustive()
     }
 }
 
 /// A mask, and what gives the weights of its triangle's corners.
 pub(crate) struct Masked<'a> {
     mask: Mask<'a>,
+    uvs: [Vec2; 3],
     /// The weights of the second and the third corner at a ray are its products with these, over its product with `whole`.
     second: DVec3,
     third: DVec3,
@@ -100,7 +131,7 @@ pub(crate) struct Masked<'a> {
 }
 
 impl<'a> Masked<'a> {
-    fn new(view: &View, mask: Mask<'a>, triangle: &Triangle) -> Self {
+    fn new(view: &View, mask: Mask<'a>, &Caster { triangle, uvs, .. }: &Caster<'a>) -> Self {
         let eye = triangle.corners.map(|corner| view.world_to_eye().transform_point3(corner));
         // Differences are taken before the turn: those of a scene far from the origin lose nothing in it.
         let edge = |corner: usize| {
@@ -109,7 +140,7 @@ impl<'a> Masked<'a> {
         };
         let (first, b, c) = (places(view, eye)[0], edge(1), edge(2));
         // Cramer's rule: the ray r meets first + s·b + t·c where s = r·(first × c) / r·(c × b) and t = r·(b × first) / r·(c × b).
-        Self { mask, second: first.cross(c), third: b.cross(first), whole: c.cross(b) }
+        Self { mask, uvs, second: first.cross(c), third: b.cross(first), whole: c.cross(b) }
     }
 
     fn weights(&self, ray: DVec3) -> DVec3 {

@@ -47,12 +47,12 @@ pub fn diagnose(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
     if plan.stored == Stored::Midpoint
         && let Some(receiver) = scene.objects.iter().find(|object| object.receives && !object.casts)
     {
-        for object in scene.objects.iter().filter(|object| object.casts && !object.solid) {
+        for object in scene.objects.iter().filter(|object| object.casts && !object.is_solid()) {
             let (light, object, receiver) = (light.name.clone(), object.name.clone(), receiver.name.clone());
             found.push(Diagnostic::VanishedShadow { light, object, receiver });
         }
     }
-    for object in scene.objects.iter().filter(|object| object.casts && object.solid) {
+    for object in scene.objects.iter().filter(|object| object.casts && object.is_solid()) {
         let closed = match &object.shape {
             Shape::Mesh(mesh) => mesh.is_closed(),
             // Cut alike for any view, and closed or not for all.
@@ -71,7 +71,7 @@ pub fn diagnose(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
 /// Whether a light in perspective stands inside a closed caster: a ray that leaves it crosses the wall an odd number of times.
 fn enclosed(scene: &Scene, object: &Object, light: &Light) -> Option<Diagnostic> {
     let view = &scene.about_origin(&light.view);
-    if !(object.casts && object.solid && view.is_perspective()) {
+    if !(object.casts && object.is_solid() && view.is_perspective()) {
         return None;
     }
     let mesh = object.shape.mesh_for(view);

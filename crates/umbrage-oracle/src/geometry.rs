@@ -1,13 +1,13 @@
 use crate::ray::Ray;
 use crate::triangle::Triangle;
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::builder::build_bvh2;
 use obvhs::bvh2::{Bvh2, node::Bvh2Node};
 use std::time::Duration;
 use umbrage_plane::{SurfacePoint, View};
-use umbrage_scene::Scene;
+use umbrage_scene::{Cover, Object, Scene};
 
 /// A triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +23,7 @@ pub struct Face {
 pub struct Body {
     /// Drawn into depth maps. Truth asks for it only under [`Truth::casters_only`](crate::Truth::casters_only).
     pub casts: bool,
-    /// The closed boundary of a solid; false for an open sheet.
+    /// The closed boundary of a solid; false for an open sheet, and where it has holes.
     pub solid: bool,
     /// Share of the light that passes one surface of it, linear RGB in 0..=1; 0, the default, is opaque (EXT-3).
     pub passes: Vec3,
@@ -48,7 +48,8 @@ pub struct Hit {
 ///
 /// Positions are the f32 numbers of the scene, relative to its origin; everything after them is f64, and points and directions
 /// that are asked about are of world space. No ray slips between triangles
-/// that share an edge or a vertex (Woop, Benthin & Wald 2013); a ray through the edge itself meets both.
+/// that share an edge or a vertex (Woop, Benthin & Wald 2013); a ray through the edge itself meets both. Where the
+/// [`Cover`] of a scene's object says that nothing is there, no ray meets it.
 ///
 /// Where a ray begins or ends on a surface, that surface is left out because it holds the point, not because it is near: what
 /// counts as *holding* is the rounding of f64, some 10⁻¹² of the point's coordinates about the origin and of the face's size, so
@@ -58,7 +59,17 @@ pub struct Geometry {
     faces: Vec<Face>,
     triangles: Vec<Triangle>,
     bodies: Vec<Body>,
+    /// What is known of holes; `None` where nothing has any.
+    holes: Option<Holes>,
     tree: Bvh2,
+}
+
+/// Where nothing is of faces that have holes.
+struct Holes {
+    /// By object.
+    covers: Vec<Cover>,
+    /// Places in the texture of each face's corners.
+    uvs: Vec<[Vec2; 3]>,
 }
 
 /// A place that faces may hold: where a ray begins or ends.
@@ -100,24 +111,38 @@ impl Geometry {
     /// # Panics
     /// When the scene's origin is not finite.
     pub fn new(scene: &Scene, dice_for: &View) -> Self {
-        let local = scene.about_origin(dice_for);
-        let mut faces = Vec::new();
-        for (object, thing) in scene.objects.iter().enumerate() {
-            let mesh = thing.shape.mesh_for(&local);
-            faces.extend(mesh.triangles.iter().map(|triangle| Face {
-                corners: triangle.map(|index| mesh.positions[index as usize]),
-                object: object as u32,
-            }));
+        let about_origin = Self::about_origin(scene, &scene.about_origin(dice_for), |_| true);
+        Self { origin: scene.origin, ..about_origin }
+    }
+
+    /// Some of the objects of a scene, about its origin as `view` is, for which patches are diced.
+    pub(crate) fn about_origin(scene: &Scene, view: &View, keep: impl Fn(&Object) -> bool) -> Self {
+        let (mut faces, mut uvs) = (Vec::new(), Vec::new());
+        let kept = |(_, object): &(usize, &Object)| keep(object);
+        let holes = scene.objects.iter().enumerate().filter(kept).any(|(_, object)| object.cover.has_holes());
+        for (id, object) in scene.objects.iter().enumerate().filter(kept) {
+            let mesh = object.shape.mesh_for(view);
+            let face = |local: usize| Face { corners: mesh.corners(local), object: id as u32 };
+            for (local, face) in
+                (0..mesh.triangles.len()).map(|local| (local, face(local))).filter(|(_, face)| usable(face))
+            {
+                faces.push(face);
+                if holes {
+                    uvs.push(mesh.corner_uvs(local));
+                }
+            }
         }
-        let bodies = scene.objects.iter();
-        let bodies = bodies.map(|thing| Body { casts: thing.casts, solid: thing.solid, passes: thing.passes });
-        Self { origin: scene.origin, ..Self::from_faces(faces, bodies.collect()) }
+        let body = |object: &Object| Body { casts: object.casts, solid: object.is_solid(), passes: object.passes };
+        let bodies = scene.objects.iter().map(body).collect();
+        let holes =
+            holes.then(|| Holes { covers: scene.objects.iter().map(|object| object.cover.clone()).collect(), uvs });
+        Self { holes, ..Self::from_faces(faces, bodies) }
     }
 
     /// From triangles of world space and what their objects are. Objects without a body count as sheets that do not cast; triangles
     /// with a coordinate that is not finite, or without area, are never met.
     pub fn from_faces(faces: Vec<Face>, bodies: Vec<Body>) -> Self {
-        let faces: Vec<Face> = faces.into_iter().filter(|face| face.corners.iter().all(|at| at.is_finite())).collect();
+        let faces: Vec<Face> = faces.into_iter().filter(usable).collect();
         let boxes: Vec<Aabb> = faces.iter().map(|face| Aabb::from_points(&face.corners.map(Vec3::to_vec3a))).collect();
         let tree = if boxes.is_empty() {
             Bvh2::default()
@@ -125,7 +150,7 @@ impl Geometry {
             build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Duration::default())
         };
         let triangles = faces.iter().map(|face| Triangle::new(face.corners)).collect();
-        Self { origin: DVec3::ZERO, faces, triangles, bodies, tree }
+        Self { origin: DVec3::ZERO, faces, triangles, bodies, holes: None, tree }
     }
 
     /// The world-space point that the faces are relative to: the scene's.
@@ -318,7 +343,34 @@ impl Geometry {
         }
     }
 
-    fn walk(&self, ray: &Ray, reach: f64, visit: &mut impl FnMut(u32, f64) -> Option<f64>) {
-        ray.walk(&self.tree, &self.triangles, reach, visit);
+    /// Whether anything of a face is at a place of it, relative to the origin.
+    pub(crate) fn is_there(&self, face: u32, at: DVec3) -> bool {
+        let Some(Holes { covers, uvs }) = &self.holes else { return true };
+        let face = face as usize;
+        let cover = &covers[self.faces[face].object as usize];
+        if !cover.has_holes() {
+            return true;
+        }
+        let [a, b, c] = uvs[face].map(Vec2::as_dvec2);
+        let DVec3 { x, y, z } = self.triangles[face].weights(at);
+        cover.is_there(a * x + b * y + c * z)
     }
+
+    /// [`Ray::walk`] over all faces, but through their holes.
+    fn walk(&self, ray: &Ray, mut reach: f64, visit: &mut impl FnMut(u32, f64) -> Option<f64>) {
+        if self.holes.is_none() {
+            return ray.walk(&self.tree, &self.triangles, reach, visit);
+        }
+        ray.walk(&self.tree, &self.triangles, reach, &mut |face, t| {
+            if self.is_there(face, ray.at(t)) {
+                reach = visit(face, t)?;
+            }
+            Some(reach)
+        });
+    }
+}
+
+/// Whether a face can be met at all.
+fn usable(face: &Face) -> bool {
+    face.corners.iter().all(|at| at.is_finite())
 }

@@ -28,6 +28,11 @@ impl Ray {
         Self { origin, direction, inverse, axes, shear }
     }
 
+    /// The place at a distance.
+    pub fn at(&self, t: f64) -> DVec3 {
+        self.origin + self.direction * t
+    }
+
     /// The distance at which the ray enters a node's box, ≥ 0; `None` when it misses.
     #[inline(always)]
     fn enters(&self, node: &Bvh2Node) -> Option<f64> {

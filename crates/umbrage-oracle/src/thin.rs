@@ -13,7 +13,7 @@ use umbrage_scene::{Light, Mesh, Object, Scene};
 /// are narrower than a texel: what happens there cannot be told from the silhouette beside it.
 pub(crate) fn too_thin(scene: &Scene, object: &Object, light: &Light, plan: &Plan) -> Option<Diagnostic> {
     let guarded = plan.slope > 0.0 && plan.stored != Stored::First;
-    if !(guarded && object.casts && object.solid) {
+    if !(guarded && object.casts && object.is_solid()) {
         return None;
     }
     // All of it about the scene's origin.
@@ -51,11 +51,11 @@ pub(crate) fn stacked(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnost
         return Vec::new();
     }
     let view = &scene.about_origin(&light.view);
-    let all = casters(scene, view);
+    let all = Geometry::about_origin(scene, view, |object| object.casts);
     let mut worst: BTreeMap<u32, (f64, Diagnostic)> = BTreeMap::new();
     for (index, face) in all.faces().iter().enumerate() {
         let Stand { corners, middle, toward, facing, zeta, axial, slope } = Stand::of(face.corners, view);
-        let solid = scene.objects[face.object as usize].solid;
+        let solid = scene.objects[face.object as usize].is_solid();
         // The back of a solid is dark anyway.
         if facing == 0.0 || (solid && facing < 0.0) || slope.length() > plan.slope || zeta <= 0.0 {
             continue;
@@ -99,17 +99,17 @@ pub(crate) fn stacked(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnost
 /// is lit (Woo 1992; W92-3). A solid's own back, or another object, ends the surface before its next fold.
 pub(crate) fn folded(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
     let one_at_any_depth = plan.stored == Stored::Midpoint && plan.midpoint.same == SameSurface::Surface;
-    let sheet = |object: &Object| object.casts && object.receives && !object.solid;
+    let sheet = |object: &Object| object.casts && object.receives && !object.is_solid();
     if !one_at_any_depth || !scene.objects.iter().any(sheet) {
         return Vec::new();
     }
     let view = &scene.about_origin(&light.view);
-    let all = casters(scene, view);
+    let all = Geometry::about_origin(scene, view, |object| object.casts);
     let mut found: BTreeMap<u32, f64> = BTreeMap::new();
     for (index, face) in all.faces().iter().enumerate().filter(|(_, face)| sheet(&scene.objects[face.object as usize]))
     {
         let Stand { middle, toward, facing, zeta, axial, .. } = Stand::of(face.corners, view);
-        if facing == 0.0 || zeta <= 0.0 {
+        if facing == 0.0 || zeta <= 0.0 || !all.is_there(index as u32, middle) {
             continue;
         }
         let apart = f64::from(plan.midpoint.merge) * zeta;
@@ -127,17 +127,6 @@ pub(crate) fn folded(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnosti
         Diagnostic::LostFold { light: light.name.clone(), object, gap }
     };
     found.into_iter().map(lost).collect()
-}
-
-/// All that casts, about the scene's origin as `view` is.
-fn casters(scene: &Scene, view: &View) -> Geometry {
-    let casting = scene.objects.iter().enumerate().filter(|(_, object)| object.casts);
-    let faces = casting.flat_map(|(id, object)| {
-        let mesh = object.shape.mesh_for(view);
-        let face = |triangle| Face { corners: mesh.corners(triangle), object: id as u32 };
-        (0..mesh.triangles.len()).map(face).collect::<Vec<_>>()
-    });
-    Geometry::from_faces(faces.collect(), vec![Body::default(); scene.objects.len()])
 }
 
 /// How a triangle stands to the light.

@@ -22,6 +22,21 @@ impl Triangle {
         (a.max(b).max(c) - a.min(b).min(c)).max_element()
     }
 
+    /// The barycentric weights of a point of its plane, clamped to the triangle; all of the first corner where it has no area, and for a
+    /// point that is not finite.
+    pub fn weights(&self, at: DVec3) -> DVec3 {
+        let [a, b, c] = self.corners;
+        let (normal, from) = ((b - a).cross(c - a), at - a);
+        let squared = normal.length_squared();
+        let (v, w) = (from.cross(c - a).dot(normal) / squared, (b - a).cross(from).dot(normal) / squared);
+        if v.is_nan() || w.is_nan() {
+            return DVec3::X;
+        }
+        let v = v.clamp(0.0, 1.0);
+        let w = w.clamp(0.0, 1.0 - v);
+        DVec3::new(1.0 - v - w, v, w)
+    }
+
     /// Its point that is nearest to another (Ericson 2005, 5.1.5).
     pub fn nearest(&self, at: DVec3) -> DVec3 {
         let [a, b, c] = self.corners;

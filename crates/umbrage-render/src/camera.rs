@@ -1,5 +1,7 @@
 use crate::Soup;
+use crate::weights::weights;
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
+use umbrage_bake::Masks;
 use umbrage_plane::{Cells, Facet, Facing, SurfacePoint, View};
 use umbrage_raster::{BIN, Bins, each_fragment};
 
@@ -9,6 +11,8 @@ pub(crate) struct Region {
     pub point: SurfacePoint,
     /// Interpolated normal on the visible side.
     pub shading_normal: Vec3,
+    /// What multiplies the diffuse colour, linear RGB.
+    pub texture: Vec3,
     /// Share of the pixel's samples.
     pub share: f32,
     /// Index of the pixel within its tile.
@@ -32,6 +36,7 @@ const NONE: Sample = Sample { key: f32::INFINITY, facet: u32::MAX };
 pub(crate) struct Gather<'a> {
     pub soup: &'a Soup<'a>,
     pub bins: &'a Bins,
+    pub masks: &'a Masks<'a>,
     pub view: &'a View,
     pub axis: u32,
     /// One region a sample instead of one a surface.
@@ -49,7 +54,7 @@ impl Gather<'_> {
         // What is nearer than the camera's near plane is not seen.
         let nearest = self.view.key(self.view.near()) as f32;
         let (mut fragments, mut passing) = (0, 0);
-        self.bins.tile(tile, |facet, coverage| {
+        self.masks.tile(self.bins, tile, |facet, coverage| {
             let index = facets.len() as u32;
             facets.push(*facet);
             each_fragment(self.view, origin, facet, coverage, |cell, _, key| {
@@ -124,9 +129,26 @@ impl Gather<'_> {
                 let mut region = self.region(&facets[facet as usize], surface.front, centre, position);
                 region.point.region = name.wrapping_add(index as u32);
                 region.point.cells = if self.every_sample { Cells::ALL } else { *cells };
-                regions.push(Region { share, pixel, ..region });
+                let texture = self.texture(members, facets);
+                regions.push(Region { texture, share, pixel, ..region });
             }
         }
+    }
+
+    /// The mean of the texture over the samples of a group: a pixel may see many of its texels.
+    fn texture(&self, members: &[(DVec2, u32)], facets: &[Facet]) -> Vec3 {
+        let mut sum = Vec3::ZERO;
+        for &(position, facet) in members {
+            let facet = &facets[facet as usize];
+            let cover = self.soup.cover(facet.triangle);
+            // They are of one object: all have a texture or none.
+            if cover.texture.is_none() {
+                return Vec3::ONE;
+            }
+            let at = self.view.world_at(position, facet.plane.at(position));
+            sum += cover.colour(self.soup.uv(facet.triangle, at));
+        }
+        sum / members.len() as f32
     }
 
     /// The region around `centre` (sample space) on a facet's plane; `sample` is where that facet was surely hit.
@@ -150,6 +172,7 @@ impl Gather<'_> {
         Region {
             point: point.with_corners(corners),
             shading_normal: interpolate(position, triangle, normals) * side as f32,
+            texture: Vec3::ONE,
             share: 0.0,
             pixel: 0,
             zeta: if self.view.is_perspective() { -1.0 / key } else { key } as f32,
@@ -181,15 +204,7 @@ impl Surface {
 }
 
 /// The shading normal at a point of a triangle's plane; barycentric weights are clamped to the triangle.
-fn interpolate(at: DVec3, [a, b, c]: [DVec3; 3], [na, nb, nc]: [Vec3; 3]) -> Vec3 {
-    let (ab, ac, ap) = (b - a, c - a, at - a);
-    let (d00, d01, d11) = (ab.dot(ab), ab.dot(ac), ac.dot(ac));
-    let (d20, d21) = (ap.dot(ab), ap.dot(ac));
-    let area = d00 * d11 - d01 * d01;
-    if area <= 0.0 {
-        return na;
-    }
-    let v = ((d11 * d20 - d01 * d21) / area).clamp(0.0, 1.0);
-    let w = ((d00 * d21 - d01 * d20) / area).clamp(0.0, 1.0 - v);
-    (na.as_dvec3() * (1.0 - v - w) + nb.as_dvec3() * v + nc.as_dvec3() * w).as_vec3().normalize_or(na)
+fn interpolate(at: DVec3, triangle: [DVec3; 3], [a, b, c]: [Vec3; 3]) -> Vec3 {
+    let Some(weights) = weights(at, triangle) else { return a };
+    (a.as_dvec3() * weights.x + b.as_dvec3() * weights.y + c.as_dvec3() * weights.z).as_vec3().normalize_or(a)
 }

@@ -1,5 +1,5 @@
-use crate::{Soup, receivers};
-use umbrage_bake::{Deep, bake_deep, mix_moments};
+use crate::{Soup, alpha_test, receivers};
+use umbrage_bake::{Caster, Deep, MaskPlace, bake_deep, mix_moments};
 use umbrage_depth::{DeepMap, DepthMap, Map, Storage, Tiled};
 use umbrage_plane::View;
 use umbrage_raster::Stats;
@@ -33,9 +33,11 @@ pub fn light_shadow(
         _ => None,
     };
     let with = LightUse { storage, receivers: seen.as_deref(), moments: moments.len() as u32 };
+    let tests = alpha_tests(moments);
     let casters = |view: &View, moment: u32| {
-        let scene = moments.get(moment as usize).copied();
-        scene.map(|scene| Soup::casters(scene, view)).into_iter().flat_map(Soup::into_casting)
+        let moment = moments.iter().zip(&tests).nth(moment as usize);
+        let soup = moment.map(|(scene, test)| (Soup::casters(scene, view), test));
+        soup.into_iter().flat_map(|(soup, test)| soup.into_casting(test))
     };
     recipe.shadow_of(std::slice::from_ref(view), &with, casters)
 }
@@ -46,7 +48,21 @@ pub fn light_shadow(
 /// # Panics
 /// As [`Soup::casters`].
 pub fn exposed_map(recipe: &Recipe, moments: &[&Scene], view: &View) -> (Map, Stats) {
-    recipe.bake_counted(view, moments.iter().map(|scene| Soup::casters(scene, view).into_casting()))
+    recipe.bake_counted(view, casting(moments, &alpha_tests(moments), view))
+}
+
+/// The alpha test of each moment.
+fn alpha_tests<'a>(moments: &[&'a Scene]) -> Vec<impl Fn(&MaskPlace) -> bool + Sync + use<'a>> {
+    moments.iter().map(|scene| alpha_test(scene)).collect()
+}
+
+/// The casters of each moment.
+fn casting<'m>(
+    moments: &[&'m Scene],
+    tests: &'m [impl Fn(&MaskPlace) -> bool + Sync],
+    view: &View,
+) -> impl Iterator<Item = impl Iterator<Item = Caster<'m>>> {
+    moments.iter().zip(tests).map(|(scene, test)| Soup::casters(scene, view).into_casting(test))
 }
 
 /// Pass 1 over an exposure: each texel sees the scene at one of its moments, drawn once per texel from `seed` (EXT-2). A filter over such a
@@ -66,5 +82,5 @@ pub fn expose<M: DepthMap>(view: &View, moments: &[&Scene], seed: u32, bake: imp
 /// # Panics
 /// As [`Soup::casters`].
 pub fn expose_deep(view: &View, moments: &[&Scene], deep: &Deep) -> DeepMap {
-    bake_deep(view, moments.iter().map(|scene| Soup::casters(scene, view).into_casting()), deep).map
+    bake_deep(view, casting(moments, &alpha_tests(moments), view), deep).map
 }

@@ -31,6 +31,7 @@ pub mod post;
 mod receivers;
 mod shade;
 mod soup;
+mod weights;
 
 pub use exposure::{expose, expose_deep, exposed_map, light_map, light_shadow};
 pub use lights::{bind_lights, light_maps, light_shadows};
@@ -38,4 +39,4 @@ pub use picture::{Frame, NOTHING, Picture, picture, picture_where};
 pub use planar::{Ground, Planar};
 pub use receivers::receivers;
 
-pub use soup::Soup;
+pub use soup::{Soup, alpha_test};

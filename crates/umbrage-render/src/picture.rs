@@ -3,6 +3,7 @@ use crate::camera::{Gather, Region};
 use crate::shade::shade;
 use glam::{DVec3, UVec2, Vec3};
 use rayon::prelude::*;
+use umbrage_bake::Masks;
 use umbrage_plane::{Kind, Sampling, SurfacePoint, TexelRect, View};
 use umbrage_raster::{BIN, Bins, Cull};
 use umbrage_sample::Key;
@@ -110,10 +111,12 @@ pub fn picture_where(
     let axis = frame.axis_for(&scene.camera);
     let view = frame.sample_view(&scene.camera);
     let soup = Soup::all(scene, &scene.camera);
-    let bins = Bins::new(&view, TexelRect::of_size(view.size()), Cull::None, soup.triangles());
+    let mut masks = Masks::new(&view);
+    let triangles = soup.casting().map(|caster| masks.note(caster));
+    let bins = Bins::new(&view, TexelRect::of_size(view.size()), Cull::None, triangles);
     let size = scene.camera.size();
-    let gather =
-        Gather { soup: &soup, bins: &bins, view: &view, axis, every_sample: frame.every_sample, width: size.x };
+    let (every_sample, width) = (frame.every_sample, size.x);
+    let gather = Gather { soup: &soup, bins: &bins, masks: &masks, view: &view, axis, every_sample, width };
     let tiles = bins.tiles();
     let done: Vec<(UVec2, TileOut)> = (0..tiles.x * tiles.y)
         .into_par_iter()

@@ -1,7 +1,7 @@
 use crate::Soup;
 use glam::{DVec2, DVec3, DVec4, UVec2};
 use std::sync::Arc;
-use umbrage_bake::bake;
+use umbrage_bake::{Caster, MaskPlace, bake};
 use umbrage_depth::{DepthMap, First, Tiled};
 use umbrage_plane::{SurfacePoint, View, ViewError, planar_shadow};
 use umbrage_raster::{Cull, Triangle};
@@ -48,8 +48,22 @@ impl Planar {
             light: (light_at.truncate() - ground.centre * light_at.w).extend(light_at.w),
         };
         let soup = Soup::casters(scene, light);
-        let flat = soup.triangles().filter(|triangle| triangle.object != receiver).flat_map(|t| flatten.triangle(&t));
-        let mask = bake(&looking_down, flat.collect::<Vec<_>>(), &First, Cull::None).map;
+        let flat: Vec<(u32, Triangle)> = (0..)
+            .zip(soup.triangles())
+            .filter(|(_, triangle)| triangle.object != receiver)
+            .flat_map(|(index, triangle)| flatten.triangle(&triangle).into_iter().map(move |flat| (index, flat)))
+            .collect();
+        let alpha_test = |place: &MaskPlace| {
+            let (index, Triangle { corners: [a, b, c], .. }) = flat[place.triangle as usize];
+            let at = a * place.weights.x + b * place.weights.y + c * place.weights.z;
+            let thrown_by = flatten.back(at, soup.corners(index).0);
+            soup.cover(index).is_there(soup.uv(index, thrown_by))
+        };
+        let casters = flat.iter().map(|&(index, triangle)| {
+            let caster = Caster::from(triangle);
+            if soup.cover(index).has_holes() { caster.with_mask(&alpha_test) } else { caster }
+        });
+        let mask = bake(&looking_down, casters, &First, Cull::None).map;
         Ok(Self { mask, ground: Ground { normal, ..ground } })
     }
 
@@ -108,6 +122,15 @@ impl Flatten {
         (1..flat.len().saturating_sub(1))
             .map(|i| Triangle { corners: [flat[0], flat[i], flat[i + 1]], ..*triangle })
             .collect()
+    }
+}
+
+impl Flatten {
+    /// The place of a triangle's plane whose shadow is at a place of the ground.
+    fn back(&self, at: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
+        let normal = (b - a).cross(c - a);
+        let toward_light = self.light.truncate() - (at - self.centre) * self.light.w;
+        at + toward_light * (normal.dot(a - at) / normal.dot(toward_light))
     }
 }
 

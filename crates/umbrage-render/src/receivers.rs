@@ -18,7 +18,7 @@ pub fn receivers(scene: &Scene, light: &View) -> Vec<DVec3> {
     let seen = picture(&wider, &[], &Frame::CENTRES);
     let reached = |i: &usize| {
         let toward = light.toward_eye(seen.position[*i]).as_vec3();
-        !scene.objects[seen.object[*i] as usize].solid || seen.normal[*i].dot(toward) > 0.0
+        !scene.objects[seen.object[*i] as usize].is_solid() || seen.normal[*i].dot(toward) > 0.0
     };
     let pixels = (0..seen.object.len()).filter(|i| seen.object[*i] != NOTHING);
     pixels.filter(reached).map(|i| seen.position[i]).collect()

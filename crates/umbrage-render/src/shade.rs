@@ -6,9 +6,10 @@ use umbrage_scene::{Light, Material, Scene};
 /// transmittance. Highlights never appear in shadow, because the shadow is part of the shading (W78-4, R87-1, R87-23).
 pub(crate) fn shade(scene: &Scene, region: &Region, toward_eye: Vec3, transmittance: &[Vec3]) -> Vec3 {
     let material = &scene.objects[region.point.object as usize].material;
+    let material = Material { diffuse: material.diffuse * region.texture, ..*material };
     let mut colour = scene.ambient * material.diffuse;
     for (light, arrives) in scene.lights.iter().zip(transmittance) {
-        colour += reflect(material, light, region, toward_eye, *arrives);
+        colour += reflect(&material, light, region, toward_eye, *arrives);
     }
     colour
 }

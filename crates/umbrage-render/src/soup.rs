@@ -1,9 +1,10 @@
-use glam::{DVec3, Vec3};
+use crate::weights::weights;
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use std::borrow::Cow;
-use umbrage_bake::Caster;
+use umbrage_bake::{Caster, Mask, MaskPlace};
 use umbrage_plane::View;
 use umbrage_raster::Triangle;
-use umbrage_scene::{Mesh, MeshError, Object, Scene};
+use umbrage_scene::{Cover, Mesh, MeshError, Object, Scene};
 
 /// The triangles of a scene for one view, and the way back from a triangle's index to its mesh.
 ///
@@ -12,12 +13,20 @@ pub struct Soup<'a> {
     /// What the positions of the meshes are relative to.
     origin: DVec3,
     pieces: Vec<Piece<'a>>,
+    /// The [`alpha_test`] of the scene.
+    alpha_test: Box<dyn Fn(&MaskPlace) -> bool + Send + Sync + 'a>,
+}
+
+/// Where something of a scene's objects is, by their [covers](Cover): the [`Mask`] of all [casters](Soup::into_casting) of the scene.
+pub fn alpha_test(scene: &Scene) -> impl Fn(&MaskPlace) -> bool + Send + Sync + '_ {
+    |place| scene.objects[place.object as usize].cover.is_there(place.uv)
 }
 
 struct Piece<'a> {
     object: u32,
     sheet: bool,
     passes: Vec3,
+    cover: &'a Cover,
     first: u32,
     mesh: Cow<'a, Mesh>,
 }
@@ -28,9 +37,13 @@ impl Piece<'_> {
         Triangle { corners: self.mesh.triangles[local].map(world), object: self.object, sheet: self.sheet }
     }
 
-    fn caster(&self, origin: DVec3, local: usize) -> Caster<'static> {
+    fn caster<'m>(&self, origin: DVec3, local: usize, alpha_test: Mask<'m>) -> Caster<'m> {
         let normals = self.mesh.triangles[local].map(|vertex| self.mesh.normals[vertex as usize]);
-        Caster::from(self.triangle(origin, local)).with_passes(self.passes).with_normals(normals)
+        let caster = Caster::from(self.triangle(origin, local)).with_passes(self.passes).with_normals(normals);
+        if self.cover.has_holes() {
+            return caster.with_uvs(self.mesh.corner_uvs(local)).with_mask(alpha_test);
+        }
+        caster
     }
 }
 
@@ -65,10 +78,11 @@ impl<'a> Soup<'a> {
                 panic!("object {id}, {:?}: {fault}", object.name);
             }
             let count = mesh.triangles.len() as u32;
-            pieces.push(Piece { object: id as u32, sheet: !object.solid, passes: object.passes, first, mesh });
+            let (sheet, passes, cover) = (!object.is_solid(), object.passes, &object.cover);
+            pieces.push(Piece { object: id as u32, sheet, passes, cover, first, mesh });
             first += count;
         }
-        Self { origin: scene.origin, pieces }
+        Self { origin: scene.origin, pieces, alpha_test: Box::new(alpha_test(scene)) }
     }
 
     /// Number of triangles.
@@ -81,24 +95,25 @@ impl<'a> Soup<'a> {
         self.len() == 0
     }
 
-    /// The triangles in order, in world space; a triangle's index counts from 0 over all objects.
+    /// The triangles in order, in world space; a triangle's index counts from 0 over all objects. Nothing is known of their holes:
+    /// [`casting`](Self::casting) knows.
     pub fn triangles(&self) -> impl Iterator<Item = Triangle> + '_ {
         self.pieces
             .iter()
             .flat_map(|piece: &Piece| (0..piece.mesh.triangles.len()).map(|local| piece.triangle(self.origin, local)))
     }
 
-    /// The same triangles, each with what passes its object and the shading normals of its mesh.
-    pub fn casting(&self) -> impl Iterator<Item = Caster<'static>> + '_ {
-        self.pieces
-            .iter()
-            .flat_map(|piece| (0..piece.mesh.triangles.len()).map(|local| piece.caster(self.origin, local)))
+    /// The same triangles, each with what passes its object, the shading normals of its mesh, and the holes of its cover.
+    pub fn casting(&self) -> impl Iterator<Item = Caster<'_>> {
+        let caster = |piece, local| Piece::caster(piece, self.origin, local, &*self.alpha_test);
+        self.pieces.iter().flat_map(move |piece| (0..piece.mesh.triangles.len()).map(move |local| caster(piece, local)))
     }
 
-    /// As [`casting`](Self::casting), for who keeps no soup.
-    pub fn into_casting(self) -> impl Iterator<Item = Caster<'static>> + 'a {
+    /// As [`casting`](Self::casting), for who keeps no soup but the scene's [`alpha_test`].
+    pub fn into_casting<'m>(self, alpha_test: Mask<'m>) -> impl Iterator<Item = Caster<'m>> + use<'a, 'm> {
         let (origin, pieces) = (self.origin, self.pieces.into_iter());
-        pieces.flat_map(move |piece| (0..piece.mesh.triangles.len()).map(move |local| piece.caster(origin, local)))
+        let caster = move |piece: &Piece, local| piece.caster(origin, local, alpha_test);
+        pieces.flat_map(move |piece| (0..piece.mesh.triangles.len()).map(move |local| caster(&piece, local)))
     }
 
     /// The smooth piece of surface that a triangle belongs to; unique together with its object.
@@ -115,6 +130,19 @@ impl<'a> Soup<'a> {
             vertices.map(|vertex| self.world(piece.mesh.positions[vertex])),
             vertices.map(|vertex| piece.mesh.normals[vertex]),
         )
+    }
+
+    /// The cover of a triangle's object.
+    pub(crate) fn cover(&self, triangle: u32) -> &Cover {
+        self.find(triangle).0.cover
+    }
+
+    /// Where a point of a triangle, in world space, lies in the texture.
+    pub(crate) fn uv(&self, triangle: u32, at: DVec3) -> DVec2 {
+        let (piece, local) = self.find(triangle);
+        let weights = weights(at, piece.triangle(self.origin, local).corners).unwrap_or(DVec3::X);
+        let [a, b, c] = piece.mesh.corner_uvs(local).map(Vec2::as_dvec2);
+        a * weights.x + b * weights.y + c * weights.z
     }
 
     fn world(&self, position: Vec3) -> DVec3 {

@@ -5,8 +5,8 @@ use umbrage_bake::bake;
 use umbrage_depth::{DepthMap, First};
 use umbrage_plane::SurfacePoint;
 use umbrage_raster::{Cull, Triangle};
-use umbrage_render::Soup;
-use umbrage_scene::{Object, Scene, gallery};
+use umbrage_render::{Soup, alpha_test};
+use umbrage_scene::{Cover, Object, Scene, Shape, gallery};
 
 #[test]
 fn r87_5_only_casters_are_drawn_and_ids_and_sheets_reach_the_facets() {
@@ -45,5 +45,30 @@ fn triangles_come_with_what_passes_their_object_and_the_normals_of_their_mesh() 
         assert_eq!(caster.passes, scene.objects[caster.triangle.object as usize].passes);
         assert!(caster.normals.is_some_and(|normals| normals.iter().all(|normal| normal.is_normalized())));
     }
-    assert_eq!(soup.into_casting().collect::<Vec<_>>(), casting);
+    assert!(casting.iter().all(|caster| caster.mask.is_none()), "nothing has holes");
+    assert_eq!(Soup::casters(&scene, &view).into_casting(&|_| true).collect::<Vec<_>>(), casting);
+}
+
+#[test]
+fn what_has_holes_comes_with_its_places_in_the_texture_and_a_mask() {
+    let mut scene: Scene = gallery::sphere_plane();
+    scene.objects[0].cover = Cover { texture: None, cutoff: Some(2.0) };
+    let Shape::Mesh(mesh) = &mut scene.objects[0].shape else { panic!("a mesh") };
+    mesh.uvs = mesh.positions.iter().map(|at| at.truncate()).collect();
+    let uvs = mesh.corner_uvs(17);
+    let view = scene.lights[0].view;
+    let soup = Soup::casters(&scene, &view);
+    for caster in soup.casting() {
+        assert_eq!(caster.mask.is_some(), caster.triangle.object == 0);
+    }
+    assert_eq!(soup.casting().nth(17).map(|caster| caster.uvs), Some(uvs));
+    // Nothing of the ball is there; the wall is all that is left.
+    let test = alpha_test(&scene);
+    let [whole, moved] = [
+        bake(&view, soup.casting(), &First, Cull::None),
+        bake(&view, Soup::casters(&scene, &view).into_casting(&test), &First, Cull::None),
+    ];
+    let wall = bake(&view, soup.triangles().filter(|triangle| triangle.object == 1), &First, Cull::None);
+    assert!(whole.map == wall.map && moved.map == wall.map);
+    assert_eq!(whole.fragments, wall.fragments);
 }

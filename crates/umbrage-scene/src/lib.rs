@@ -1,4 +1,4 @@
-//! Meshes, bicubic patches, materials, lights and the gallery of the papers' scenes.
+//! Meshes, bicubic patches, materials, textures, lights and the gallery of the papers' scenes.
 //!
 //! Pure data: a [`Scene`] is objects, lights and a camera, and nothing in it is drawn or cast here. Cameras and lights are
 //! [`umbrage_plane::View`]s, whose conventions (right-handed world, texel rows from the top) hold throughout; y is up in
@@ -14,6 +14,7 @@
 //! assert!(toward_light.z > 0.0 && arriving.x > 0.0);
 //! ```
 
+mod cover;
 mod dice;
 mod framing;
 pub mod gallery;
@@ -23,9 +24,11 @@ mod patch;
 mod scene;
 mod solids;
 mod teapot;
+mod texture;
 pub mod tree;
 mod turned;
 
+pub use cover::Cover;
 pub use dice::{MOST_PIECES, dice};
 pub use framing::{Ball, FrameError, fit};
 pub use light::Light;
@@ -33,3 +36,4 @@ pub use mesh::{Mesh, MeshError};
 pub use patch::{Basis, Patch};
 pub use scene::{Material, Object, Scene, Shape};
 pub use teapot::utah_teapot;
+pub use texture::{Interpolation, Texture, TextureError, Wrap};

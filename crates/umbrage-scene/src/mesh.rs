@@ -1,4 +1,4 @@
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 /// Triangles with shading normals. Vertices on a crease are doubled with equal positions.
 ///
@@ -14,6 +14,9 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
     /// One a triangle: the smooth piece of surface it belongs to (a box has six, a sphere one).
     pub surfaces: Vec<u32>,
+    /// Where each position lies in a [`Texture`](crate::Texture), one a position: (0, 0) is the image's upper left corner, (1, 1)
+    /// its lower right one. Empty for a mesh without a texture, all of which lies at (0, 0).
+    pub uvs: Vec<Vec2>,
 }
 
 /// Why a mesh cannot be drawn.
@@ -36,6 +39,14 @@ pub enum MeshError {
         /// Number of surface ids.
         surfaces: usize,
     },
+    /// Texture coordinates, but not one a position.
+    #[error("mesh has {positions} positions but {uvs} texture coordinates")]
+    Uvs {
+        /// Number of positions.
+        positions: usize,
+        /// Number of texture coordinates.
+        uvs: usize,
+    },
     /// A triangle names a vertex that does not exist.
     #[error("mesh triangle {triangle} names vertex {vertex} of {vertices}")]
     Index {
@@ -46,7 +57,7 @@ pub enum MeshError {
         /// Number of vertices.
         vertices: usize,
     },
-    /// A coordinate of a position or a normal is NaN or infinite.
+    /// A coordinate of a position or a normal, or in the texture, is NaN or infinite.
     #[error("mesh vertex {vertex} has a coordinate that is not finite")]
     NotFinite {
         /// The vertex.
@@ -67,13 +78,19 @@ impl Mesh {
         if self.surfaces.len() != self.triangles.len() {
             return Err(MeshError::Surfaces { triangles: self.triangles.len(), surfaces: self.surfaces.len() });
         }
+        if !self.uvs.is_empty() && self.uvs.len() != vertices {
+            return Err(MeshError::Uvs { positions: vertices, uvs: self.uvs.len() });
+        }
         for (triangle, corners) in self.triangles.iter().enumerate() {
             if let Some(&vertex) = corners.iter().find(|&&vertex| vertex as usize >= vertices) {
                 return Err(MeshError::Index { triangle, vertex, vertices });
             }
         }
-        let finite = |(position, normal): (&Vec3, &Vec3)| position.is_finite() && normal.is_finite();
-        match self.positions.iter().zip(&self.normals).position(|vertex| !finite(vertex)) {
+        let finite = |vertex: &usize| {
+            let in_texture = self.uvs.get(*vertex).is_none_or(|uv| uv.is_finite());
+            self.positions[*vertex].is_finite() && self.normals[*vertex].is_finite() && in_texture
+        };
+        match (0..vertices).find(|vertex| !finite(vertex)) {
             Some(vertex) => Err(MeshError::NotFinite { vertex }),
             None => Ok(()),
         }
@@ -91,6 +108,15 @@ impl Mesh {
     /// When the triangle, or a vertex that it names, does not exist.
     pub fn corners(&self, triangle: usize) -> [Vec3; 3] {
         self.triangles[triangle].map(|vertex| self.positions[vertex as usize])
+    }
+
+    /// Where the three corners of a triangle lie in a texture: all at (0, 0) without [`Mesh::uvs`].
+    ///
+    /// # Panics
+    /// When the triangle does not exist, or a vertex that it names has no place in the texture while others have.
+    pub fn corner_uvs(&self, triangle: usize) -> [Vec2; 3] {
+        let uv = |vertex: u32| if self.uvs.is_empty() { Vec2::ZERO } else { self.uvs[vertex as usize] };
+        self.triangles[triangle].map(uv)
     }
 
     /// True when the triangles bound a solid: every edge, named by its two positions, belongs to exactly two triangles
@@ -120,13 +146,19 @@ impl Mesh {
         edges.chunk_by(|a, b| a.0 == b.0).filter(|edge| !whole(edge)).count()
     }
 
-    /// Adds another mesh's triangles. Its surfaces are numbered after this mesh's.
+    /// Adds another mesh's triangles. Its surfaces are numbered after this mesh's. Where only one of the two has [`Mesh::uvs`],
+    /// the other's vertices keep the place in the texture that they have without: (0, 0).
     ///
     /// # Panics
     /// When vertices or surfaces would pass 2³².
     pub fn append(&mut self, other: &Self) {
         let vertices = u32::try_from(self.positions.len()).expect("at most 2^32 vertices");
         let surfaces = self.surfaces.iter().max().map_or(0, |last| last + 1);
+        if !(self.uvs.is_empty() && other.uvs.is_empty()) {
+            self.uvs.resize(self.positions.len(), Vec2::ZERO);
+            self.uvs.extend_from_slice(&other.uvs);
+            self.uvs.resize(self.positions.len() + other.positions.len(), Vec2::ZERO);
+        }
         self.positions.extend_from_slice(&other.positions);
         self.normals.extend_from_slice(&other.normals);
         self.triangles.extend(other.triangles.iter().map(|corners| corners.map(|vertex| vertex + vertices)));

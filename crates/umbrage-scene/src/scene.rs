@@ -1,4 +1,4 @@
-use crate::{Mesh, Patch, dice};
+use crate::{Cover, Mesh, Patch, dice};
 use glam::{DVec3, Vec3};
 use std::borrow::Cow;
 use umbrage_plane::{View, ViewError};
@@ -81,11 +81,14 @@ pub struct Object {
     pub casts: bool,
     /// Can be shadowed.
     pub receives: bool,
-    /// True for the closed boundary of a solid, false for an open, two-sided surface.
+    /// True for the closed boundary of a solid, false for an open, two-sided surface. Where the [cover](Self::cover) has holes it
+    /// counts as false: see [`Object::is_solid`].
     pub solid: bool,
     /// Share of the light that passes one surface of it, linear RGB in 0..=1: 0 is opaque. Only deep maps and rays know of it;
     /// a closed solid has two surfaces in the way.
     pub passes: Vec3,
+    /// What its texture adds to [`Object::material`]: colour, and holes.
+    pub cover: Cover,
 }
 
 impl Object {
@@ -99,12 +102,24 @@ impl Object {
             receives: true,
             solid: true,
             passes: Vec3::ZERO,
+            cover: Cover::default(),
         }
     }
 
     /// An open, two-sided shape that casts and receives.
     pub fn two_sided(name: &str, shape: Shape, material: Material) -> Self {
-        Self { name: name.into(), shape, material, casts: true, receives: true, solid: false, passes: Vec3::ZERO }
+        Self { solid: false, shape, ..Self::solid(name, Mesh::default(), material) }
+    }
+
+    /// The same with a texture, or holes, or both.
+    #[must_use]
+    pub fn with_cover(self, cover: Cover) -> Self {
+        Self { cover, ..self }
+    }
+
+    /// True for the closed boundary of a solid. One that has holes is none: its inside is seen, and light comes in.
+    pub fn is_solid(&self) -> bool {
+        self.solid && !self.cover.has_holes()
     }
 }
 

@@ -267,3 +267,23 @@ fn a_mask_is_asked_where_the_ray_of_a_sample_meets_the_triangle() {
         }
     }
 }
+
+#[test]
+fn a_mask_is_given_the_place_in_the_texture_between_those_of_the_corners() {
+    for view in views() {
+        let triangles = triangles();
+        let uvs = |triangle: u32| [Vec2::new(triangle as f32, 0.0), Vec2::new(-1.0, 0.5), Vec2::new(0.25, 7.0)];
+        let asked = AtomicU32::new(0);
+        let mask = |at: &MaskPlace| {
+            asked.fetch_add(1, Ordering::Relaxed);
+            assert_eq!(at.uv, at.mix(uvs(at.triangle)));
+            at.uv.y < 3.0
+        };
+        let casters = || (0..).zip(&triangles).map(|(i, triangle)| Caster::from(*triangle).with_uvs(uvs(i)));
+        let by_uv: Vec<Caster<'_>> = casters().map(|caster| caster.with_mask(&mask)).collect();
+        let by_weights = |at: &MaskPlace| at.weights.y * 0.5 + at.weights.z * 7.0 < 3.0;
+        let by_weights: Vec<Caster<'_>> = casters().map(|caster| caster.with_mask(&by_weights)).collect();
+        assert!(every(&view, &by_uv) == every(&view, &by_weights));
+        assert!(asked.into_inner() > 0);
+    }
+}

@@ -64,6 +64,7 @@ fn split(scene: &Scene) -> (Scene, Vec<u32>) {
                 normals: corner(&mesh.normals),
                 triangles: vec![[0, 1, 2]],
                 surfaces: vec![0],
+                ..Mesh::default()
             };
             objects.push(Object { shape: Shape::Mesh(piece), ..object.clone() });
             whole.push(id as u32);

@@ -4,6 +4,7 @@ mod bodies;
 mod diagnose;
 mod exact;
 mod faults;
+mod holes;
 mod metrics;
 mod predict;
 mod rays;

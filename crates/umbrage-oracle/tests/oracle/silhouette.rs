@@ -101,7 +101,8 @@ fn squares_lose_no_segment() {
         let key = Key::new(round, 0, 0);
         let corners = [corner(key, 0), corner(key, 1), corner(key, 2)];
         let normals = vec![Vec3::Y; 3];
-        let lone = Mesh { positions: corners.to_vec(), normals, triangles: vec![[0, 1, 2]], surfaces: vec![0] };
+        let (positions, triangles, surfaces) = (corners.to_vec(), vec![[0, 1, 2]], vec![0]);
+        let lone = Mesh { positions, normals, triangles, surfaces, ..Mesh::default() };
         let at: Vec<Vec3> =
             (0..400).map(|i| Vec3::new(31.9 * key.signed(i, 4), -9.0, 31.9 * key.signed(i, 5))).collect();
         let found = silhouette_distance(&sun(64), &scene(vec![lone]), &at, 11.0);

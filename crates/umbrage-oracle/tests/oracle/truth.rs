@@ -6,7 +6,7 @@ use umbrage_oracle::{
 };
 use umbrage_plane::{Rules, SurfacePoint, View};
 use umbrage_sample::Key;
-use umbrage_scene::{Material, Mesh, Object, Scene, Shape};
+use umbrage_scene::{Cover, Material, Mesh, Object, Scene, Shape};
 use umbrage_shadow::Shadow;
 
 const SOLID: Body = Body { casts: true, solid: true, passes: Vec3::ZERO };
@@ -138,12 +138,14 @@ fn x5_a_scene_is_all_its_objects() {
             normals: vec![Vec3::Y; 3],
             triangles: vec![[0, 1, 2]],
             surfaces: vec![0],
+            ..Mesh::default()
         }),
         material: Material { diffuse: Vec3::ONE, specular: Vec3::ZERO, shininess: 1.0 },
         casts,
         receives: true,
         solid: !casts,
         passes: Vec3::ZERO,
+        cover: Cover::default(),
     };
     let scene = Scene {
         name: String::new(),

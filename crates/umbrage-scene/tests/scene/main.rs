@@ -9,4 +9,5 @@ mod patches;
 mod rays;
 mod reconstructions;
 mod rolling;
+mod textures;
 mod trees;
