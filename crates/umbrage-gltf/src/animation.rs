@@ -36,7 +36,8 @@ pub(crate) fn poses(file: &File, options: &ReadOptions) -> Result<BTreeMap<usize
     let samplers = animation.items("samplers")?;
     for channel in animation.items("channels")? {
         let sampler = channel.index("sampler", samplers.len(), "samplers")?;
-        let sampler = sampler.and_then(|index| samplers.get(index)).ok_or_else(|| channel.wrong("sampler", "a number"))?;
+        let sampler =
+            sampler.and_then(|index| samplers.get(index)).ok_or_else(|| channel.wrong("sampler", "a number"))?;
         let target = channel.get("target").ok_or_else(|| channel.wrong("target", "an object"))?;
         let Some(node) = target.index("node", file.count("nodes")?, "nodes")? else {
             file.note(Level::Always, format!("{} has no node, and is ignored", target.path));
@@ -53,7 +54,9 @@ pub(crate) fn poses(file: &File, options: &ReadOptions) -> Result<BTreeMap<usize
                     pose.weights = Some(Keys::open(file, sampler, &WEIGHTS, targets, time)?.mixed(file, lerp)?);
                 }
             }
-            Some("pointer") => file.note(Level::Always, format!("{} animates what is not a node, and is ignored", target.path)),
+            Some("pointer") => {
+                file.note(Level::Always, format!("{} animates what is not a node, and is ignored", target.path))
+            }
             _ => return Err(target.wrong("path", "translation, rotation, scale or weights")),
         }
     }
@@ -102,7 +105,11 @@ fn finite(sampler: &At, value: Vec<f64>) -> Result<Vec<f64>, GltfError> {
     if value.iter().all(|number| number.is_finite()) {
         return Ok(value);
     }
-    Err(GltfError::field(sampler.path_of("output"), format!("{value:?}"), "finite numbers, and rotations that are not 0"))
+    Err(GltfError::field(
+        sampler.path_of("output"),
+        format!("{value:?}"),
+        "finite numbers, and rotations that are not 0",
+    ))
 }
 
 fn lerp(a: &[f64], b: &[f64], t: f64) -> Vec<f64> {
@@ -142,7 +149,8 @@ impl<'a> Keys<'a> {
         let values = if between == Between::Cubic { 3 } else { 1 };
         let elements = (input.count as u64).saturating_mul(values).saturating_mul((lanes / wanted.lanes) as u64);
         let expected = "what its times and targets need";
-        let output = output.counting(usize::try_from(elements).unwrap_or(usize::MAX), &sampler.path_of("output"), expected)?;
+        let output =
+            output.counting(usize::try_from(elements).unwrap_or(usize::MAX), &sampler.path_of("output"), expected)?;
         // The first key that is later; times ascend.
         let (mut low, mut high) = (0, input.count);
         while low < high {

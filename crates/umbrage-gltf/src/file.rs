@@ -114,7 +114,10 @@ fn extensions(root: &At, notes: &mut Notes) -> Result<(), GltfError> {
             return Err(GltfError::Extension { name: name.chars().take(60).collect() });
         }
         if name.starts_with(SHADING) {
-            notes.add(Level::Always, format!("the required extension {} changes shading only, and is ignored", quoted(name)));
+            notes.add(
+                Level::Always,
+                format!("the required extension {} changes shading only, and is ignored", quoted(name)),
+            );
         }
     }
     for name in names("extensionsUsed")? {

@@ -2,8 +2,8 @@
 
 use crate::budget::Budget;
 use crate::file::File;
-use crate::note::Level;
 use crate::nodes::Nodes;
+use crate::note::Level;
 use crate::sight::Things;
 use crate::{GltfError, Note, ReadOptions, animation, camera, container, lights, objects, uri};
 use glam::Vec3;
@@ -45,7 +45,8 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Import, GltfError> {
     let bytes = uri::regular("file", path, u64::MAX, &budget);
     let import = bytes.and_then(|bytes| decoded(&bytes, folder, &name, options, budget));
     import.map_err(|fault| {
-        let file = path.to_string_lossy().chars().map(|letter| if letter.is_control() { '?' } else { letter }).collect();
+        let file =
+            path.to_string_lossy().chars().map(|letter| if letter.is_control() { '?' } else { letter }).collect();
         GltfError::In { file, fault: Box::new(fault) }
     })
 }

@@ -121,9 +121,8 @@ fn open(source: &Source) -> Option<Verdict> {
 /// The light's own view, and those of its maps.
 fn views(source: &Source, things: &Things, map_size: u32) -> Result<(View, Vec<View>), ViewError> {
     let size = UVec2::splat(map_size);
-    let placed = |sight: &Sight, projection, [near, far]: [f64; 2]| {
-        View::new(sight.world_to_eye(), projection, near, far, size)
-    };
+    let placed =
+        |sight: &Sight, projection, [near, far]: [f64; 2]| View::new(sight.world_to_eye(), projection, near, far, size);
     let sight = &source.sight;
     match source.shines {
         Shines::Sun => {

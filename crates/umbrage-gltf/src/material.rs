@@ -27,7 +27,11 @@ pub(crate) fn surface(file: &File, primitive: &At) -> Result<Surface, GltfError>
     if let Some(base) = at.get("pbrMetallicRoughness") {
         colour = base.numbers("baseColorFactor")?.unwrap_or(colour);
         if !colour.iter().all(|channel| (0.0..=1.0).contains(channel)) {
-            return Err(GltfError::field(base.path_of("baseColorFactor"), format!("{colour:?}"), "numbers from 0 to 1"));
+            return Err(GltfError::field(
+                base.path_of("baseColorFactor"),
+                format!("{colour:?}"),
+                "numbers from 0 to 1",
+            ));
         }
         if let Some(texture) = base.get("baseColorTexture") {
             file.note(Level::Verbose, format!("{} is not shown", texture.path));

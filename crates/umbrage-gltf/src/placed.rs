@@ -25,8 +25,7 @@ pub(crate) fn placed(
     carrier: Carrier,
     origin: DVec3,
 ) -> Result<Mesh, GltfError> {
-    let active: Vec<_> =
-        primitive.targets.iter().zip(weights).filter(|(_, weight)| **weight != 0.0).collect();
+    let active: Vec<_> = primitive.targets.iter().zip(weights).filter(|(_, weight)| **weight != 0.0).collect();
     charge(file, primitive, active.len())?;
     let vertices = primitive.positions.len();
     let mut positions = Vec::with_capacity(vertices);
@@ -35,7 +34,8 @@ pub(crate) fn placed(
     let mut mirrored = Vec::with_capacity(vertices);
     for (vertex, (&id, &position)) in primitive.ids.iter().zip(&primitive.positions).enumerate() {
         let added = |of: &dyn Fn(usize) -> Option<DVec3>| {
-            (0..active.len()).fold(DVec3::ZERO, |sum, target| sum + of(target).unwrap_or(DVec3::ZERO) * active[target].1)
+            (0..active.len())
+                .fold(DVec3::ZERO, |sum, target| sum + of(target).unwrap_or(DVec3::ZERO) * active[target].1)
         };
         let id = id as usize;
         let read = |accessor: &Accessor| DVec3::from_array(accessor.get(id));

@@ -140,7 +140,10 @@ fn vertices(file: &File, at: &At, found: &Accessor, order: Order) -> Result<Vert
     let corners = indices.as_ref().map_or(found.count, |indices| indices.count);
     let count = order.triangles(corners);
     if matches!(order, Order::List) && corners % 3 != 0 {
-        file.note(Level::Always, format!("{} has {corners} corners: the last {} make no triangle", at.path, corners % 3));
+        file.note(
+            Level::Always,
+            format!("{} has {corners} corners: the last {} make no triangle", at.path, corners % 3),
+        );
     }
     file.budget.charge(&at.path, count as u64, TRIANGLE)?;
     let mut triangles = Vec::with_capacity(count);
@@ -159,8 +162,7 @@ fn vertices(file: &File, at: &At, found: &Accessor, order: Order) -> Result<Vert
     }
     let mut ids = renumber(&mut triangles, found.count);
     file.budget.charge(&at.path, ids.len() as u64, VERTEX)?;
-    let mut positions: Vec<DVec3> =
-        ids.iter().map(|&id| DVec3::from_array(found.get(id as usize))).collect();
+    let mut positions: Vec<DVec3> = ids.iter().map(|&id| DVec3::from_array(found.get(id as usize))).collect();
     let before = triangles.len();
     let place = |vertex: u32| positions[vertex as usize];
     triangles.retain(|corners| corners.iter().all(|&vertex| place(vertex).is_finite()));
