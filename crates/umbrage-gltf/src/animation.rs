@@ -55,7 +55,7 @@ pub(crate) fn poses(file: &File, options: &ReadOptions) -> Result<BTreeMap<usize
                 }
             }
             Some("pointer") => {
-                file.note(Level::Always, format!("{} animates what is not a node, and is ignored", target.path))
+                file.note(Level::Always, format!("{} animates what is not a node, and is ignored", target.path));
             }
             _ => return Err(target.wrong("path", "translation, rotation, scale or weights")),
         }
@@ -129,7 +129,7 @@ struct Keys<'a> {
     output: Accessor<'a>,
     between: Between,
     lanes: usize,
-    keys: [usize; 2],
+    about: [usize; 2],
     times: [f64; 2],
     /// From 0 to 1; 0 before the first key and after the last one.
     share: f64,
@@ -165,7 +165,7 @@ impl<'a> Keys<'a> {
             return Err(GltfError::field(sampler.path_of("input"), value, "finite times that ascend"));
         }
         let share = if keys[0] == keys[1] { 0.0 } else { ((time - before) / (after - before)).clamp(0.0, 1.0) };
-        Ok(Self { output, between, lanes, keys, times, share })
+        Ok(Self { output, between, lanes, about: keys, times, share })
     }
 
     /// One of the values of a key: of a cubic spline 0 is the tangent before it, 1 its value, 2 the tangent behind it.
@@ -184,7 +184,7 @@ impl<'a> Keys<'a> {
     /// The value at the moment; `linear` is what lies between two values, as far as the third argument says.
     fn mixed(&self, file: &File, linear: impl Fn(&[f64], &[f64], f64) -> Vec<f64>) -> Result<Vec<f64>, GltfError> {
         file.budget.charge(&self.output.path, self.lanes as u64, 64)?;
-        let [before, after] = self.keys;
+        let [before, after] = self.about;
         let first = self.value(before, 1);
         if self.share == 0.0 || self.between == Between::Step {
             return Ok(first);

@@ -91,7 +91,7 @@ fn local(at: &At, pose: Option<&Pose>) -> Result<DAffine3, GltfError> {
     if let Some(numbers) = at.numbers::<16>("matrix")? {
         let matrix = DMat4::from_cols_array(&numbers);
         if !matrix.row(3).abs_diff_eq(glam::DVec4::W, 1e-6) {
-            let value = format!("a fourth row of {}", matrix.row(3));
+            let value = format!("a fourth row of {:?}", matrix.row(3).to_array());
             return Err(GltfError::field(at.path_of("matrix"), value, "0, 0, 0, 1"));
         }
         let affine = DAffine3::from_mat4(matrix);

@@ -127,7 +127,9 @@ fn places(file: &File, node: &At, world: DAffine3, skinned: bool) -> Result<Vec<
         if own.is_finite() {
             return Ok(world * own);
         }
-        let value = format!("copy {copy} of scale {scale}, rotation {rotation} and translation {translation}");
+        let [scale, translation] = [scale, translation].map(|vector| vector.to_array());
+        let rotation = rotation.to_array();
+        let value = format!("copy {copy} of scale {scale:?}, rotation {rotation:?} and translation {translation:?}");
         Err(GltfError::field(&attributes.path, value, "finite numbers, and a rotation that is not 0"))
     };
     (0..count).map(place).collect()

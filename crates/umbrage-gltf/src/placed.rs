@@ -46,7 +46,7 @@ pub(crate) fn placed(
         };
         let world = carry.transform_point3(position) - origin;
         if !(world.as_vec3().is_finite() && carry.matrix3.is_finite()) {
-            let value = format!("vertex {vertex} stands at {world}");
+            let value = format!("vertex {vertex} stands at {:?}", world.to_array());
             return Err(GltfError::field(&primitive.path, value, "a place within the range of floats"));
         }
         positions.push(world);

@@ -122,7 +122,7 @@ impl Order {
     fn corners(self, triangle: usize) -> [usize; 3] {
         match self {
             Self::List => [3 * triangle, 3 * triangle + 1, 3 * triangle + 2],
-            Self::Strip if triangle % 2 == 0 => [triangle, triangle + 1, triangle + 2],
+            Self::Strip if triangle.is_multiple_of(2) => [triangle, triangle + 1, triangle + 2],
             Self::Strip => [triangle, triangle + 2, triangle + 1],
             Self::Fan => [triangle + 1, triangle + 2, 0],
         }

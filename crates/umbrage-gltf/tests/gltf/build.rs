@@ -57,7 +57,9 @@ impl Build {
 
     /// A mesh of one primitive.
     pub fn mesh(&mut self, primitive: Value) -> usize {
-        self.push("meshes", json!({"primitives": [primitive]}))
+        let mut mesh = json!({});
+        mesh["primitives"] = vec![primitive].into();
+        self.push("meshes", mesh)
     }
 
     /// A node.

@@ -14,7 +14,7 @@ fn lit(light: Value, node: Value) -> Build {
     let positions = build.floats(&[[-2.0, 0.0, 2.0], [2.0, 0.0, 2.0], [-2.0, 0.0, -2.0], [2.0, 0.0, -2.0]]);
     let mesh = build.mesh(json!({"attributes": {"POSITION": positions}, "mode": 5}));
     build.node(json!({"mesh": mesh}));
-    build.document["extensions"] = json!({PUNCTUAL: {"lights": [light]}});
+    build.document["extensions"][PUNCTUAL]["lights"] = vec![light].into();
     let mut node = node;
     node["extensions"] = json!({PUNCTUAL: {"light": 0}});
     build.node(node);
@@ -34,7 +34,7 @@ fn spot(outer_deg: f64) -> Value {
 
 fn with_shadow(light: Value, shadow: Value) -> Build {
     let mut node = above();
-    node["extras"] = json!({"shadow": shadow});
+    node["extras"]["shadow"] = shadow;
     lit(light, node)
 }
 

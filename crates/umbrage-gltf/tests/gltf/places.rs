@@ -33,7 +33,7 @@ fn a_matrix_is_given_by_columns_and_parents_apply_last() {
     near(&flat(&found), &[10.0, 0.0, 0.0, 10.0, 2.0, 0.0, 8.0, 0.0, 0.0]);
     assert_eq!(
         placed(json!({"matrix": [1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]})).refused(),
-        "nodes[0].matrix: a fourth row of [0.5, 0, 0, 1], expected 0, 0, 0, 1"
+        "nodes[0].matrix: a fourth row of [0.5, 0.0, 0.0, 1.0], expected 0, 0, 0, 1"
     );
 }
 
