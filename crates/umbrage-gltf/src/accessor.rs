@@ -130,7 +130,11 @@ impl<'a> Accessor<'a> {
         let fits = at.text("type")? == Some(wanted.kind)
             && (wanted.of.contains(&component) || (file.quantised && wanted.quantised.contains(&component)));
         if !fits {
-            let value = format!("{} has {} of {component:?}", at.path, at.text("type")?.map_or("nothing".into(), crate::error::quoted));
+            let value = format!(
+                "{} has {} of {component:?}",
+                at.path,
+                at.text("type")?.map_or("nothing".into(), crate::error::quoted)
+            );
             return Err(GltfError::field(holder.path_of(field), value, format!("{} of {:?}", wanted.kind, wanted.of)));
         }
         let count = at.size("count", 0)?;
@@ -195,7 +199,8 @@ fn view<'a>(
     let views = file.count("bufferViews")?;
     let Some(number) = holder.index("bufferView", views, "bufferViews")? else { return Ok(None) };
     let view = file.member("bufferViews", number)?;
-    let buffer = view.index("buffer", file.buffers.len(), "buffers")?.ok_or_else(|| view.wrong("buffer", "a number"))?;
+    let buffer =
+        view.index("buffer", file.buffers.len(), "buffers")?.ok_or_else(|| view.wrong("buffer", "a number"))?;
     let Some(Some(data)) = file.buffers.get(buffer) else {
         let compressed = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
         let value = match compressed.iter().find(|name| view.extension(name).is_some()) {

@@ -36,7 +36,8 @@ pub(crate) fn poses(file: &File, options: &ReadOptions) -> Result<BTreeMap<usize
     let samplers = animation.items("samplers")?;
     for channel in animation.items("channels")? {
         let sampler = channel.index("sampler", samplers.len(), "samplers")?;
-        let sampler = sampler.and_then(|index| samplers.get(index)).ok_or_else(|| channel.wrong("sampler", "a number"))?;
+        let sampler =
+            sampler.and_then(|index| samplers.get(index)).ok_or_else(|| channel.wrong("sampler", "a number"))?;
         let target = channel.get("target").ok_or_else(|| channel.wrong("target", "an object"))?;
         let Some(node) = target.index("node", file.count("nodes")?, "nodes")? else {
             file.note(Level::Always, format!("{} has no node, and is ignored", target.path));
@@ -53,7 +54,9 @@ pub(crate) fn poses(file: &File, options: &ReadOptions) -> Result<BTreeMap<usize
                     pose.weights = Some(Keys::open(file, sampler, &WEIGHTS, targets, time)?.mixed(file, lerp)?);
                 }
             }
-            Some("pointer") => file.note(Level::Always, format!("{} animates what is not a node, and is ignored", target.path)),
+            Some("pointer") => {
+                file.note(Level::Always, format!("{} animates what is not a node, and is ignored", target.path));
+            }
             _ => return Err(target.wrong("path", "translation, rotation, scale or weights")),
         }
     }
@@ -102,7 +105,11 @@ fn finite(sampler: &At, value: Vec<f64>) -> Result<Vec<f64>, GltfError> {
     if value.iter().all(|number| number.is_finite()) {
         return Ok(value);
     }
-    Err(GltfError::field(sampler.path_of("output"), format!("{value:?}"), "finite numbers, and rotations that are not 0"))
+    Err(GltfError::field(
+        sampler.path_of("output"),
+        format!("{value:?}"),
+        "finite numbers, and rotations that are not 0",
+    ))
 }
 
 fn lerp(a: &[f64], b: &[f64], t: f64) -> Vec<f64> {
@@ -122,7 +129,7 @@ struct Keys<'a> {
     output: Accessor<'a>,
     between: Between,
     lanes: usize,
-    keys: [usize; 2],
+    about: [usize; 2],
     times: [f64; 2],
     /// From 0 to 1; 0 before the first key and after the last one.
     share: f64,
@@ -142,7 +149,8 @@ impl<'a> Keys<'a> {
         let values = if between == Between::Cubic { 3 } else { 1 };
         let elements = (input.count as u64).saturating_mul(values).saturating_mul((lanes / wanted.lanes) as u64);
         let expected = "what its times and targets need";
-        let output = output.counting(usize::try_from(elements).unwrap_or(usize::MAX), &sampler.path_of("output"), expected)?;
+        let output =
+            output.counting(usize::try_from(elements).unwrap_or(usize::MAX), &sampler.path_of("output"), expected)?;
         // The first key that is later; times ascend.
         let (mut low, mut high) = (0, input.count);
         while low < high {
@@ -157,7 +165,7 @@ impl<'a> Keys<'a> {
             return Err(GltfError::field(sampler.path_of("input"), value, "finite times that ascend"));
         }
         let share = if keys[0] == keys[1] { 0.0 } else { ((time - before) / (after - before)).clamp(0.0, 1.0) };
-        Ok(Self { output, between, lanes, keys, times, share })
+        Ok(Self { output, between, lanes, about: keys, times, share })
     }
 
     /// One of the values of a key: of a cubic spline 0 is the tangent before it, 1 its value, 2 the tangent behind it.
@@ -176,7 +184,7 @@ impl<'a> Keys<'a> {
     /// The value at the moment; `linear` is what lies between two values, as far as the third argument says.
     fn mixed(&self, file: &File, linear: impl Fn(&[f64], &[f64], f64) -> Vec<f64>) -> Result<Vec<f64>, GltfError> {
         file.budget.charge(&self.output.path, self.lanes as u64, 64)?;
-        let [before, after] = self.keys;
+        let [before, after] = self.about;
         let first = self.value(before, 1);
         if self.share == 0.0 || self.between == Between::Step {
             return Ok(first);

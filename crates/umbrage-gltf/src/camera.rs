@@ -31,7 +31,11 @@ pub(crate) fn camera(file: &File, nodes: &Nodes, things: &Things, options: &Read
     }
     if let Some(wanted) = &options.camera {
         names.truncate(8);
-        let expected = if names.is_empty() { "no name, since none has one".into() } else { format!("one of {}", names.join(", ")) };
+        let expected = if names.is_empty() {
+            "no name, since none has one".into()
+        } else {
+            format!("one of {}", names.join(", "))
+        };
         return Err(GltfError::field("cameras", quoted(wanted), expected));
     }
     file.note(Level::Always, "the scene has no camera: one that looks down on all of it was added");

@@ -15,8 +15,8 @@ pub(crate) fn split<'a>(bytes: &'a [u8], budget: &Budget) -> Result<(Value, Opti
         return Ok((parse(text, budget)?, None));
     }
     let header = "a header of 12 bytes";
-    let [version, length] =
-        [4, 8].map(|at| word(bytes, at).ok_or_else(|| GltfError::field("glb", format!("{} bytes", bytes.len()), header)));
+    let [version, length] = [4, 8]
+        .map(|at| word(bytes, at).ok_or_else(|| GltfError::field("glb", format!("{} bytes", bytes.len()), header)));
     let version = version?;
     if version != 2 {
         return Err(GltfError::field("glb.version", version, "2"));

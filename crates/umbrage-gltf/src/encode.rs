@@ -121,7 +121,8 @@ impl Writer {
         let normals = self.vectors(&mesh.normals, None)?;
         let corners: Vec<u8> = mesh.triangles.iter().flatten().flat_map(|vertex| vertex.to_le_bytes()).collect();
         let count = mesh.triangles.len() * 3;
-        let indices = self.accessor(&corners, 34963, json!({"componentType": 5125, "count": count, "type": "SCALAR"}))?;
+        let indices =
+            self.accessor(&corners, 34963, json!({"componentType": 5125, "count": count, "type": "SCALAR"}))?;
         self.materials.push(material(&object.material, object.passes));
         self.meshes.push(json!({"name": object.name, "primitives": [{
             "attributes": {"POSITION": positions, "NORMAL": normals},

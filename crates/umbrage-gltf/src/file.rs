@@ -8,12 +8,14 @@ use crate::{GltfError, Note, uri};
 use serde_json::Value;
 use std::borrow::Cow;
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
+use umbrage_scene::Texture;
 
 /// Extensions that are read.
-const READ: [&str; 3] = ["EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_mesh_quantization"];
-/// Extensions that can be passed over without a wrong shadow: they say how textures lie, which are not shown.
-const HARMLESS: [&str; 1] = ["KHR_texture_transform"];
+const READ: [&str; 4] =
+    ["EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_mesh_quantization", "KHR_texture_transform"];
 /// How the names of extensions begin that change shading only.
 const SHADING: &str = "KHR_materials_";
 
@@ -28,6 +30,10 @@ pub(crate) struct File<'a> {
     pub buffers: Vec<Option<Cow<'a, [u8]>>>,
     /// Whether positions may be other than floats.
     pub quantised: bool,
+    /// Where the files lie that the scene names.
+    pub folder: Option<&'a Path>,
+    /// Textures by their numbers, once they were read.
+    pub textures: RefCell<BTreeMap<usize, Arc<Texture>>>,
     notes: RefCell<Notes>,
 }
 
@@ -36,7 +42,7 @@ impl<'a> File<'a> {
     pub fn open(
         document: &'a Value,
         bin: Option<&'a [u8]>,
-        folder: Option<&Path>,
+        folder: Option<&'a Path>,
         budget: Budget,
     ) -> Result<Self, GltfError> {
         let root = At::root(document);
@@ -49,7 +55,8 @@ impl<'a> File<'a> {
         for (index, buffer) in root.items("buffers")?.iter().enumerate() {
             buffers.push(load(buffer, bin.filter(|_| index == 0), folder, &budget)?);
         }
-        Ok(Self { root, budget, buffers, quantised, notes: RefCell::new(notes) })
+        let (textures, notes) = (RefCell::default(), RefCell::new(notes));
+        Ok(Self { root, budget, buffers, quantised, folder, textures, notes })
     }
 
     /// One of the lists at the document's root.
@@ -68,6 +75,21 @@ impl<'a> File<'a> {
             Some(all) => all.item(index),
             None => Err(self.root.wrong(list, "an array")),
         }
+    }
+
+    /// The bytes of the buffer view that a field `bufferView` names.
+    pub fn view_bytes(&self, holder: &At) -> Result<&[u8], GltfError> {
+        let views = self.count("bufferViews")?;
+        let number = holder.index("bufferView", views, "bufferViews")?;
+        let view =
+            self.member("bufferViews", number.ok_or_else(|| holder.wrong("bufferView", "a number, or a uri"))?)?;
+        let buffer = view.index("buffer", self.buffers.len(), "buffers")?;
+        let buffer = buffer.ok_or_else(|| view.wrong("buffer", "a number"))?;
+        let data = self.buffers.get(buffer).and_then(Option::as_deref).unwrap_or_default();
+        let (offset, length) = (view.size("byteOffset", 0)?, view.size("byteLength", 0)?);
+        offset.checked_add(length).and_then(|end| data.get(offset..end)).ok_or_else(|| {
+            view.wrong("byteLength", format!("at most the bytes of buffers[{buffer}], {}, behind {offset}", data.len()))
+        })
     }
 
     /// Adds a note.
@@ -106,7 +128,7 @@ fn extensions(root: &At, notes: &mut Notes) -> Result<(), GltfError> {
         };
         root.list(list)?.iter().enumerate().map(name).collect::<Result<Vec<String>, _>>()
     };
-    let known = |name: &str| READ.contains(&name) || HARMLESS.contains(&name);
+    let known = |name: &str| READ.contains(&name);
     let required = names("extensionsRequired")?;
     for name in &required {
         if !known(name) && !name.starts_with(SHADING) {
@@ -114,7 +136,10 @@ fn extensions(root: &At, notes: &mut Notes) -> Result<(), GltfError> {
             return Err(GltfError::Extension { name: name.chars().take(60).collect() });
         }
         if name.starts_with(SHADING) {
-            notes.add(Level::Always, format!("the required extension {} changes shading only, and is ignored", quoted(name)));
+            notes.add(
+                Level::Always,
+                format!("the required extension {} changes shading only, and is ignored", quoted(name)),
+            );
         }
     }
     for name in names("extensionsUsed")? {

@@ -2,25 +2,14 @@
 
 use crate::budget::Budget;
 use crate::file::File;
-use crate::note::Level;
+use crate::lights::Lamp;
 use crate::nodes::Nodes;
+use crate::note::Level;
 use crate::sight::Things;
 use crate::{GltfError, Note, ReadOptions, animation, camera, container, lights, objects, uri};
 use glam::Vec3;
 use std::path::Path;
-use umbrage_plane::View;
 use umbrage_scene::Scene;
-
-/// What a light's map is made of, and how large the light is.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Lamp {
-    /// The views of its maps: the light's own for a sun or a spot, [six](umbrage_plane::cube_views) around a point light,
-    /// [five](View::faces_ahead) for a spot whose outer cone is above 70°.
-    pub views: Vec<View>,
-    /// The radius of its body: `extras.radius`, world units, of a disc square to a spot's axis or of a ball about a point light; `extras.angle`,
-    /// radians, of a sun. 0 where the file gives none.
-    pub radius: f64,
-}
 
 /// A scene, with what a scene does not hold.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +34,8 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Import, GltfError> {
     let bytes = uri::regular("file", path, u64::MAX, &budget);
     let import = bytes.and_then(|bytes| decoded(&bytes, folder, &name, options, budget));
     import.map_err(|fault| {
-        let file = path.to_string_lossy().chars().map(|letter| if letter.is_control() { '?' } else { letter }).collect();
+        let file =
+            path.to_string_lossy().chars().map(|letter| if letter.is_control() { '?' } else { letter }).collect();
         GltfError::In { file, fault: Box::new(fault) }
     })
 }

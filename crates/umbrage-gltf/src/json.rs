@@ -92,7 +92,8 @@ impl<'a> At<'a> {
         let values = values.ok_or_else(|| self.wrong(name, expected()))?;
         let mut numbers = [0.0; N];
         for (number, value) in numbers.iter_mut().zip(values) {
-            *number = value.as_f64().ok_or_else(|| GltfError::field(self.path_of(name), describe(value), expected()))?;
+            *number =
+                value.as_f64().ok_or_else(|| GltfError::field(self.path_of(name), describe(value), expected()))?;
         }
         Ok(Some(numbers))
     }

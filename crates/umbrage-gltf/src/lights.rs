@@ -1,12 +1,12 @@
 //! Lights: the views of their maps, what they send where, and how bright they are together.
 
+use crate::GltfError;
 use crate::file::File;
 use crate::nodes::Nodes;
 use crate::note::Level;
 use crate::sight::{Sight, Things};
 use crate::source::{Shines, Source, sources};
 use crate::window::Window;
-use crate::{GltfError, Lamp};
 use glam::{DVec2, DVec3, UVec2, Vec3};
 use umbrage_plane::{Projection, Rules, Verdict, View, ViewError, cube_views};
 use umbrage_scene::Light;
@@ -18,6 +18,17 @@ const WIDE: f64 = 0.342_020_143_325_668_7;
 const WIDEST: f64 = 1.527_163_095_495_038_5;
 /// What is added around that which a map must hold, as a fraction.
 const MARGIN: f64 = 1.0 / 1024.0;
+
+/// What a light's map is made of, and how large the light is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lamp {
+    /// The views of its maps: the light's own for a sun or a spot, [six](umbrage_plane::cube_views) around a point light,
+    /// [five](View::faces_ahead) for a spot whose outer cone is above 70°.
+    pub views: Vec<View>,
+    /// The radius of its body: `extras.radius`, world units, of a disc square to a spot's axis or of a ball about a point light; `extras.angle`,
+    /// radians, of a sun. 0 where the file gives none.
+    pub radius: f64,
+}
 
 /// The lights of the scene, a lamp for each, or a sun where there are none.
 pub(crate) fn lights(
@@ -121,9 +132,8 @@ fn open(source: &Source) -> Option<Verdict> {
 /// The light's own view, and those of its maps.
 fn views(source: &Source, things: &Things, map_size: u32) -> Result<(View, Vec<View>), ViewError> {
     let size = UVec2::splat(map_size);
-    let placed = |sight: &Sight, projection, [near, far]: [f64; 2]| {
-        View::new(sight.world_to_eye(), projection, near, far, size)
-    };
+    let placed =
+        |sight: &Sight, projection, [near, far]: [f64; 2]| View::new(sight.world_to_eye(), projection, near, far, size);
     let sight = &source.sight;
     match source.shines {
         Shines::Sun => {
@@ -168,8 +178,9 @@ fn range(source: &Source, things: &Things, least: f64) -> [f64; 2] {
     }
     let [near, far] = things.reach(source.sight.eye);
     let far = far.max(things.radius() * 1e-3) * (1.0 + MARGIN);
+    let near = if near.is_finite() { near * least * (1.0 - MARGIN) } else { far * 0.5 };
     // A lamp within its own shade or on a wall: what is so near to it may be nearer than the near plane.
-    [(near * least * (1.0 - MARGIN)).min(far * 0.5).max(far * 1e-5), far]
+    [near.max(far * 1e-5), far]
 }
 
 /// A view along a sun's rays of all that stands in the scene.

@@ -1,10 +1,10 @@
 //! The hierarchy of nodes: who is whose parent, and where each stands in the world.
 
+use crate::GltfError;
 use crate::animation::Pose;
 use crate::file::File;
 use crate::json::At;
 use crate::note::Level;
-use crate::GltfError;
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use std::collections::BTreeMap;
 
@@ -91,7 +91,7 @@ fn local(at: &At, pose: Option<&Pose>) -> Result<DAffine3, GltfError> {
     if let Some(numbers) = at.numbers::<16>("matrix")? {
         let matrix = DMat4::from_cols_array(&numbers);
         if !matrix.row(3).abs_diff_eq(glam::DVec4::W, 1e-6) {
-            let value = format!("a fourth row of {}", matrix.row(3));
+            let value = format!("a fourth row of {:?}", matrix.row(3).to_array());
             return Err(GltfError::field(at.path_of("matrix"), value, "0, 0, 0, 1"));
         }
         let affine = DAffine3::from_mat4(matrix);
@@ -107,7 +107,8 @@ fn local(at: &At, pose: Option<&Pose>) -> Result<DAffine3, GltfError> {
             translation = DVec3::from_array(numbers);
         }
         if let Some(numbers) = at.numbers("rotation")? {
-            rotation = turned(DQuat::from_array(numbers)).ok_or_else(|| at.wrong("rotation", "a quaternion that is not 0"))?;
+            rotation =
+                turned(DQuat::from_array(numbers)).ok_or_else(|| at.wrong("rotation", "a quaternion that is not 0"))?;
         }
     }
     let pose = posed.cloned().unwrap_or_default();

@@ -105,9 +105,10 @@ fn places(file: &File, node: &At, world: DAffine3, skinned: bool) -> Result<Vec<
         return Ok(vec![world]);
     }
     let attributes = copies.get("attributes").ok_or_else(|| copies.wrong("attributes", "an object"))?;
-    let [translations, rotations, scales] =
-        [("TRANSLATION", &VECTORS), ("ROTATION", &ROTATIONS), ("SCALE", &VECTORS)]
-            .map(|(name, wanted)| Accessor::of(file, &attributes, name, wanted).map(|found| found.map(|found| (name, found))));
+    let [translations, rotations, scales] = [("TRANSLATION", &VECTORS), ("ROTATION", &ROTATIONS), ("SCALE", &VECTORS)]
+        .map(|(name, wanted)| {
+            Accessor::of(file, &attributes, name, wanted).map(|found| found.map(|found| (name, found)))
+        });
     let given: Vec<_> = [translations?, rotations?, scales?].into_iter().flatten().collect();
     let Some(count) = given.first().map(|(_, first)| first.count) else {
         return Err(GltfError::field(attributes.path, "nothing", "TRANSLATION, ROTATION or SCALE"));
@@ -126,7 +127,9 @@ fn places(file: &File, node: &At, world: DAffine3, skinned: bool) -> Result<Vec<
         if own.is_finite() {
             return Ok(world * own);
         }
-        let value = format!("copy {copy} of scale {scale}, rotation {rotation} and translation {translation}");
+        let [scale, translation] = [scale, translation].map(|vector| vector.to_array());
+        let rotation = rotation.to_array();
+        let value = format!("copy {copy} of scale {scale:?}, rotation {rotation:?} and translation {translation:?}");
         Err(GltfError::field(&attributes.path, value, "finite numbers, and a rotation that is not 0"))
     };
     (0..count).map(place).collect()
@@ -135,8 +138,10 @@ fn places(file: &File, node: &At, world: DAffine3, skinned: bool) -> Result<Vec<
 /// A box around all that stands in the scene, roughly: morph targets are left out, and joints carry whole boxes.
 fn bounds(file: &File, meshes: &BTreeMap<usize, Parts>, stands: &[Stand]) -> Result<[DVec3; 2], GltfError> {
     let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-    let boxes: BTreeMap<usize, Vec<[DVec3; 2]>> =
-        meshes.iter().map(|(number, parts)| (*number, parts.primitives.iter().map(Primitive::bounds).collect())).collect();
+    let boxes: BTreeMap<usize, Vec<[DVec3; 2]>> = meshes
+        .iter()
+        .map(|(number, parts)| (*number, parts.primitives.iter().map(Primitive::bounds).collect()))
+        .collect();
     for stand in stands {
         let own = boxes.get(&stand.mesh).map_or(&[][..], Vec::as_slice);
         let carriers = stand.joints.as_ref().unwrap_or(&stand.places);
@@ -194,6 +199,7 @@ fn add(file: &File, stand: &Stand, parts: &Parts, origin: DVec3, objects: &mut V
                 receives,
                 solid: parts.closed && !flat,
                 passes: primitive.surface.passes,
+                cover: primitive.cover(),
             });
         }
     }

@@ -25,8 +25,7 @@ pub(crate) fn placed(
     carrier: Carrier,
     origin: DVec3,
 ) -> Result<Mesh, GltfError> {
-    let active: Vec<_> =
-        primitive.targets.iter().zip(weights).filter(|(_, weight)| **weight != 0.0).collect();
+    let active: Vec<_> = primitive.targets.iter().zip(weights).filter(|(_, weight)| **weight != 0.0).collect();
     charge(file, primitive, active.len())?;
     let vertices = primitive.positions.len();
     let mut positions = Vec::with_capacity(vertices);
@@ -35,7 +34,8 @@ pub(crate) fn placed(
     let mut mirrored = Vec::with_capacity(vertices);
     for (vertex, (&id, &position)) in primitive.ids.iter().zip(&primitive.positions).enumerate() {
         let added = |of: &dyn Fn(usize) -> Option<DVec3>| {
-            (0..active.len()).fold(DVec3::ZERO, |sum, target| sum + of(target).unwrap_or(DVec3::ZERO) * active[target].1)
+            (0..active.len())
+                .fold(DVec3::ZERO, |sum, target| sum + of(target).unwrap_or(DVec3::ZERO) * active[target].1)
         };
         let id = id as usize;
         let read = |accessor: &Accessor| DVec3::from_array(accessor.get(id));
@@ -46,7 +46,7 @@ pub(crate) fn placed(
         };
         let world = carry.transform_point3(position) - origin;
         if !(world.as_vec3().is_finite() && carry.matrix3.is_finite()) {
-            let value = format!("vertex {vertex} stands at {world}");
+            let value = format!("vertex {vertex} stands at {:?}", world.to_array());
             return Err(GltfError::field(&primitive.path, value, "a place within the range of floats"));
         }
         positions.push(world);
@@ -62,7 +62,13 @@ pub(crate) fn placed(
             corners.swap(1, 2);
         }
     }
-    Ok(if primitive.normals.is_some() { smooth(&positions, normals, triangles) } else { flat(&positions, &triangles) })
+    let uvs = &primitive.uvs;
+    Ok(if primitive.normals.is_some() {
+        Mesh { uvs: uvs.clone(), ..smooth(&positions, normals, triangles) }
+    } else {
+        let corners = triangles.iter().flatten().filter_map(|&vertex| uvs.get(vertex as usize).copied());
+        Mesh { uvs: corners.collect(), ..flat(&positions, &triangles) }
+    })
 }
 
 fn charge(file: &File, primitive: &Primitive, targets: usize) -> Result<(), GltfError> {
@@ -124,7 +130,7 @@ fn smooth(positions: &[DVec3], mut normals: Vec<Vec3>, triangles: Vec<[u32; 3]>)
         }
     }
     let surfaces = surfaces(positions.len(), &triangles);
-    Mesh { positions: positions.iter().map(|at| at.as_vec3()).collect(), normals, triangles, surfaces }
+    Mesh { positions: positions.iter().map(|at| at.as_vec3()).collect(), normals, triangles, surfaces, uvs: Vec::new() }
 }
 
 /// Every triangle a surface of its own.
@@ -137,6 +143,7 @@ fn flat(positions: &[DVec3], triangles: &[[u32; 3]]) -> Mesh {
         normals: normals.collect(),
         triangles: (0..count).map(|triangle| [0, 1, 2].map(|corner| triangle * 3 + corner)).collect(),
         surfaces: (0..count).collect(),
+        uvs: Vec::new(),
     }
 }
 

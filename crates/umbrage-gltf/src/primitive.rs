@@ -7,7 +7,9 @@ use crate::file::File;
 use crate::json::At;
 use crate::material::{Surface, surface};
 use crate::note::Level;
-use glam::DVec3;
+use glam::{DVec3, Vec2};
+use std::sync::Arc;
+use umbrage_scene::Cover;
 
 /// Triangles of one material, with the vertices that they name and no others.
 #[derive(Clone, Debug)]
@@ -16,6 +18,8 @@ pub(crate) struct Primitive<'a> {
     /// The place of each vertex in the accessors, ascending.
     pub ids: Vec<u32>,
     pub positions: Vec<DVec3>,
+    /// Where each vertex lies in the texture; empty without one.
+    pub uvs: Vec<Vec2>,
     /// Normals by place in the accessor; without them triangles are flat.
     pub normals: Option<Accessor<'a>>,
     pub triangles: Vec<[u32; 3]>,
@@ -91,8 +95,16 @@ impl<'a> Primitive<'a> {
             joints.push([of, by.ok_or_else(|| attributes.wrong(&weights, "the number of an accessor"))?]);
         }
         let normals = attribute(&attributes, "NORMAL", &NORMALS)?;
+        let uvs = surface.laid.as_ref().map(|laid| laid.places(file, &attributes, &ids, found.count)).transpose()?;
+        let uvs = uvs.unwrap_or_default();
         let path = at.path.clone();
-        Ok(Some(Self { path, ids, positions, normals, triangles, targets, joints, surface }))
+        Ok(Some(Self { path, ids, positions, uvs, normals, triangles, targets, joints, surface }))
+    }
+
+    /// Its texture, with the holes that it makes.
+    pub fn cover(&self) -> Cover {
+        let texture = self.surface.laid.as_ref().map(|laid| Arc::clone(&laid.texture));
+        Cover { texture, cutoff: self.surface.cutoff }
     }
 
     /// The corners of the box around all vertices.
@@ -122,7 +134,7 @@ impl Order {
     fn corners(self, triangle: usize) -> [usize; 3] {
         match self {
             Self::List => [3 * triangle, 3 * triangle + 1, 3 * triangle + 2],
-            Self::Strip if triangle % 2 == 0 => [triangle, triangle + 1, triangle + 2],
+            Self::Strip if triangle.is_multiple_of(2) => [triangle, triangle + 1, triangle + 2],
             Self::Strip => [triangle, triangle + 2, triangle + 1],
             Self::Fan => [triangle + 1, triangle + 2, 0],
         }
@@ -140,7 +152,10 @@ fn vertices(file: &File, at: &At, found: &Accessor, order: Order) -> Result<Vert
     let corners = indices.as_ref().map_or(found.count, |indices| indices.count);
     let count = order.triangles(corners);
     if matches!(order, Order::List) && corners % 3 != 0 {
-        file.note(Level::Always, format!("{} has {corners} corners: the last {} make no triangle", at.path, corners % 3));
+        file.note(
+            Level::Always,
+            format!("{} has {corners} corners: the last {} make no triangle", at.path, corners % 3),
+        );
     }
     file.budget.charge(&at.path, count as u64, TRIANGLE)?;
     let mut triangles = Vec::with_capacity(count);
@@ -159,8 +174,7 @@ fn vertices(file: &File, at: &At, found: &Accessor, order: Order) -> Result<Vert
     }
     let mut ids = renumber(&mut triangles, found.count);
     file.budget.charge(&at.path, ids.len() as u64, VERTEX)?;
-    let mut positions: Vec<DVec3> =
-        ids.iter().map(|&id| DVec3::from_array(found.get(id as usize))).collect();
+    let mut positions: Vec<DVec3> = ids.iter().map(|&id| DVec3::from_array(found.get(id as usize))).collect();
     let before = triangles.len();
     let place = |vertex: u32| positions[vertex as usize];
     triangles.retain(|corners| corners.iter().all(|&vertex| place(vertex).is_finite()));

@@ -18,12 +18,16 @@ pub(crate) fn joints(file: &File, nodes: &Nodes, node: &At) -> Result<Option<Vec
     let bound = Accessor::of(file, &skin, "inverseBindMatrices", &MATRICES)?;
     if let Some(few) = bound.as_ref().filter(|bound| bound.count < joints.len()) {
         let value = format!("{} has {} elements", few.path, few.count);
-        return Err(GltfError::field(skin.path_of("inverseBindMatrices"), value, format!("one for each of {} joints", joints.len())));
+        return Err(GltfError::field(
+            skin.path_of("inverseBindMatrices"),
+            value,
+            format!("one for each of {} joints", joints.len()),
+        ));
     }
     let carry = |(at, joint): (usize, usize)| {
-        let bind = bound.as_ref().map_or(DAffine3::IDENTITY, |bound| {
-            DAffine3::from_mat4(DMat4::from_cols_array(&bound.get(at)))
-        });
+        let bind = bound
+            .as_ref()
+            .map_or(DAffine3::IDENTITY, |bound| DAffine3::from_mat4(DMat4::from_cols_array(&bound.get(at))));
         nodes.all[joint].world * bind
     };
     Ok(Some(joints.into_iter().enumerate().map(carry).collect()))

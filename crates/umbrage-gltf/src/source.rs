@@ -65,7 +65,8 @@ fn source(node: &At, light: &At, sight: Sight) -> Result<Source, GltfError> {
     if !colour.iter().all(|channel| (0.0..=1e6).contains(channel)) {
         return Err(light.wrong("color", "numbers from 0"));
     }
-    let strength = light.number_in("intensity", 1.0, |number| (0.0..=1e30).contains(&number), "a number from 0 to 1e30")?;
+    let strength =
+        light.number_in("intensity", 1.0, |number| (0.0..=1e30).contains(&number), "a number from 0 to 1e30")?;
     let range = match light.number("range")? {
         None => None,
         Some(_) => Some(light.number_in("range", 0.0, |range| range > 0.0, "world units above 0")?),

@@ -32,7 +32,8 @@ pub(crate) fn window(node: &At, light: &At, needed: &str, kind: &str) -> Result<
     if shadow.text("type")? != Some(needed) {
         return Err(shadow.wrong("type", format!("{needed:?}, since the light is {kind}")));
     }
-    let number = |name: &str, fits: &dyn Fn(f64) -> bool, expected: &str| shadow.number_in(name, f64::NAN, fits, expected);
+    let number =
+        |name: &str, fits: &dyn Fn(f64) -> bool, expected: &str| shadow.number_in(name, f64::NAN, fits, expected);
     if needed == "orthographic" {
         let half = number("half", &|half| half > 0.0, "world units above 0")?;
         let near = number("near", &|near| !near.is_nan(), "world units")?;
@@ -54,7 +55,8 @@ pub(crate) fn window(node: &At, light: &At, needed: &str, kind: &str) -> Result<
 pub(crate) fn size(node: &At, light: &At, sun: bool) -> Result<f64, GltfError> {
     let (own, other) = if sun { ("angle", "radius") } else { ("radius", "angle") };
     if let Some(extras) = extra(node, light, other) {
-        let expected = if sun { "no radius: a sun has extras.angle, in radians" } else { "no angle: only suns have one" };
+        let expected =
+            if sun { "no radius: a sun has extras.angle, in radians" } else { "no angle: only suns have one" };
         return Err(extras.wrong(other, expected));
     }
     let Some(extras) = extra(node, light, own) else { return Ok(0.0) };

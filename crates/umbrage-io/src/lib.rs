@@ -15,7 +15,7 @@
 //! * [`write_atomic`]: the one path on which all of these write. A killed run leaves no torn file.
 //!
 //! Files are not trusted: sizes are checked against the file's length and a budget before memory is taken, and every fault
-//! is one line that names file, field and value. The library crate that opens files is this one alone.
+//! is one line that names file, field and value. Of the crates that know pictures and maps only this one opens files.
 //!
 //! ```
 //! use glam::{UVec2, Vec3};

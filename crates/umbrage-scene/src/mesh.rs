@@ -1,4 +1,5 @@
 use glam::{Vec2, Vec3};
+use std::collections::HashMap;
 
 /// Triangles with shading normals. Vertices on a crease are doubled with equal positions.
 ///
@@ -134,16 +135,35 @@ impl Mesh {
     /// # Panics
     /// As [`Mesh::is_closed`].
     pub fn open_edges(&self) -> usize {
-        let mut edges: Vec<([[u32; 3]; 2], bool)> = (0..self.triangles.len())
-            .flat_map(|triangle| {
-                let [a, b, c] = self.corners(triangle).map(position_bits);
+        let mut numbers = HashMap::with_capacity(self.positions.len());
+        let mut number = |at: &Vec3| {
+            let next = numbers.len();
+            *numbers.entry(position_bits(*at)).or_insert(next)
+        };
+        let places: Vec<usize> = self.positions.iter().map(&mut number).collect();
+        // Each edge as its lower place, and its higher one with the direction of the triangle.
+        let edges = || {
+            self.triangles.iter().flat_map(|corners| {
+                let [a, b, c] = corners.map(|vertex| places[vertex as usize]);
                 [[a, b], [b, c], [c, a]]
+                    .map(|[from, to]| if from <= to { (from, (to, false)) } else { (to, (from, true)) })
             })
-            .map(|[from, to]| if from <= to { ([from, to], false) } else { ([to, from], true) })
-            .collect();
-        edges.sort_unstable();
-        let whole = |edge: &[([[u32; 3]; 2], bool)]| matches!(edge, [(_, false), (_, true)]);
-        edges.chunk_by(|a, b| a.0 == b.0).filter(|edge| !whole(edge)).count()
+        };
+        // All edges of a place stand together: sorting them by place alone needs no comparison.
+        let mut begins = vec![0; numbers.len() + 1];
+        edges().for_each(|(low, _)| begins[low + 1] += 1);
+        (1..begins.len()).for_each(|place| begins[place] += begins[place - 1]);
+        let (mut free, mut ends) = (begins.clone(), vec![(0, false); 3 * self.triangles.len()]);
+        for (low, end) in edges() {
+            ends[free[low]] = end;
+            free[low] += 1;
+        }
+        let open = |of: &[usize]| {
+            let around = &mut ends[of[0]..of[1]];
+            around.sort_unstable();
+            around.chunk_by(|a, b| a.0 == b.0).filter(|edge| !matches!(edge, [(_, false), (_, true)])).count()
+        };
+        begins.windows(2).map(open).sum()
     }
 
     /// Adds another mesh's triangles. Its surfaces are numbered after this mesh's. Where only one of the two has [`Mesh::uvs`],

@@ -1,0 +1,14 @@
+//! Known answers, round trips and hostile files of `umbrage-gltf`.
+
+mod animations;
+mod build;
+mod cameras;
+mod files;
+mod hostile;
+mod lights;
+mod materials;
+mod meshes;
+mod mutants;
+mod places;
+mod round_trips;
+mod skins;
