@@ -12,3 +12,4 @@ mod mutants;
 mod places;
 mod round_trips;
 mod skins;
+mod textures;

@@ -25,18 +25,6 @@ fn base_colour_and_alpha_become_reflectance_and_what_passes() {
 }
 
 #[test]
-fn textures_are_noted_for_whoever_asks() {
-    let mut build = triangle();
-    build.document["meshes"][0]["primitives"][0]["material"] = 0.into();
-    build.node(json!({"mesh": 0}));
-    build.push("materials", json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}));
-    let import = build.read().unwrap();
-    let note = "materials[0].pbrMetallicRoughness.baseColorTexture is not shown";
-    assert!(notes(&import).contains(&note.to_owned()), "{:?}", notes(&import));
-    assert_eq!(import.scene.objects[0].material.diffuse, Vec3::ONE);
-}
-
-#[test]
 fn extensions_are_refused_or_noted_by_name() {
     let mut build = triangle();
     build.node(json!({"mesh": 0}));
