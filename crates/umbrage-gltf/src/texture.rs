@@ -50,13 +50,12 @@ impl Laid {
         let number =
             at.index("index", count, "textures")?.ok_or_else(|| at.wrong("index", "the number of a texture"))?;
         let known = file.textures.borrow().get(&number).cloned();
-        let texture = match known {
-            Some(texture) => texture,
-            None => {
-                let texture = Arc::new(texture(file, &file.member("textures", number)?)?);
-                file.textures.borrow_mut().insert(number, Arc::clone(&texture));
-                texture
-            }
+        let texture = if let Some(texture) = known {
+            texture
+        } else {
+            let texture = Arc::new(texture(file, &file.member("textures", number)?)?);
+            file.textures.borrow_mut().insert(number, Arc::clone(&texture));
+            texture
         };
         Ok(Self { texture, set, turned, offset })
     }
