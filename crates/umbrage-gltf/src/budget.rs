@@ -4,7 +4,7 @@ use std::cell::Cell;
 /// Bytes per vertex of a mesh that was read, or of a place where it stands: positions and normals, and what is made on the way.
 pub(crate) const VERTEX: u64 = 96;
 /// Bytes per triangle: its corners, its surface, and what is made to find its neighbours.
-pub(crate) const TRIANGLE: u64 = 160;
+pub(crate) const TRIANGLE: u64 = 112;
 /// Bytes per object, beside its triangles.
 pub(crate) const OBJECT: u64 = 512;
 

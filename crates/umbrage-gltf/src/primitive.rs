@@ -188,7 +188,7 @@ fn vertices(file: &File, at: &At, found: &Accessor, order: Order) -> Result<Vert
     triangles.retain(|&[a, b, c]| place(a) != place(b) && place(b) != place(c) && place(c) != place(a));
     let flat = finite - triangles.len();
     if flat > 0 {
-        let text = format!("triangles of {} are skipped: two of their corners are one place", at.path);
+        let text = "triangles are skipped that cover nothing: two of their corners are one place";
         file.note_times(Level::Verbose, text, flat as u64);
     }
     if broken + flat > 0 {

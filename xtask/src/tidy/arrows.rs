@@ -85,7 +85,7 @@ const RULES: &[Rule] = &[
         package: "umbrage-gltf",
         arrows: &["umbrage-scene"],
         outside: &["base64", "glam", "image", "serde_json", "thiserror"],
-        tests: PROPERTIES,
+        tests: &["cap"],
     },
     Rule {
         package: "umbrage-report",

@@ -8,7 +8,6 @@ mod hostile;
 mod lights;
 mod materials;
 mod meshes;
-mod mutants;
 mod places;
 mod round_trips;
 mod skins;
