@@ -145,8 +145,8 @@ pub struct ShadowArgs {
     #[arg(long, value_enum, default_value_t = WindowArg::File)]
     pub window: WindowArg,
     /// Filter for the size of each light, as the file gives it in `extras`, or with a radius of so many world units (of a sun: radians)
-    #[arg(long, value_name = "RADIUS", num_args = 0..=1, require_equals = true, value_parser = radius)]
-    pub area: Option<Option<f64>>,
+    #[arg(long, value_name = "RADIUS", num_args = 0..=1, require_equals = true, default_missing_value = "file", value_parser = area)]
+    pub area: Option<Area>,
     /// Cast rays instead of asking maps
     #[arg(long)]
     pub truth: bool,
@@ -162,6 +162,15 @@ pub enum Format {
 pub enum WindowArg {
     File,
     Fitted,
+}
+
+/// How large lights are.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Area {
+    /// As the scene says.
+    File,
+    /// All of one radius: world units, of a sun radians.
+    Radius(f64),
 }
 
 #[derive(Args)]
@@ -257,7 +266,10 @@ fn seconds(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|number: &f64| number.is_finite()).ok_or_else(|| "expected a finite number".into())
 }
 
-fn radius(text: &str) -> Result<f64, String> {
+fn area(text: &str) -> Result<Area, String> {
+    if text == "file" {
+        return Ok(Area::File);
+    }
     let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
-    number.ok_or_else(|| "expected a finite number above 0".into())
+    number.map(Area::Radius).ok_or_else(|| "expected a finite number above 0".into())
 }

@@ -1,6 +1,6 @@
 //! `umbrage shadow`.
 
-use crate::args::{Cli, Format, ShadowArgs, WindowArg};
+use crate::args::{Area, Cli, Format, ShadowArgs, WindowArg};
 use crate::shell::{Shell, Usage};
 use crate::stage::{Lamp, Stage};
 use crate::{lamp, names};
@@ -60,8 +60,11 @@ pub fn frame(samples: u32, seed: u32, number: u32) -> Frame {
 
 /// The radius of a light that is to be filtered for: world units, or the tangent of a sun's angle.
 fn area(stage: &Stage, lamp: &Lamp, args: &ShadowArgs) -> anyhow::Result<Option<f64>> {
-    let Some(given) = args.area else { return Ok(None) };
-    let radius = given.unwrap_or(lamp.radius);
+    let radius = match args.area {
+        None => return Ok(None),
+        Some(Area::File) => lamp.radius,
+        Some(Area::Radius(radius)) => radius,
+    };
     if radius <= 0.0 {
         let problem = "the scene gives it no radius: --area=RADIUS does";
         return Err(Usage(format!("--area: light {:?}: {problem}", lamp.name)).into());

@@ -37,7 +37,7 @@ fn textured(image: &[u8], material: Value) -> Build {
     build
 }
 
-fn masked(texture: Value, alpha: f32) -> Value {
+fn masked(texture: &Value, alpha: f32) -> Value {
     let base = json!({"baseColorTexture": texture, "baseColorFactor": [0.5, 1.0, 1.0, alpha]});
     json!({"alphaMode": "MASK", "alphaCutoff": 0.25, "pbrMetallicRoughness": base})
 }
@@ -45,7 +45,7 @@ fn masked(texture: Value, alpha: f32) -> Value {
 #[test]
 fn a_mask_cuts_holes_where_the_image_is_transparent() {
     for alpha in [1.0, 0.4] {
-        let import = textured(&coded(ImageFormat::Png), masked(json!({"index": 0}), alpha)).read().unwrap();
+        let import = textured(&coded(ImageFormat::Png), masked(&json!({"index": 0}), alpha)).read().unwrap();
         let object = &import.scene.objects[0];
         assert_eq!(object.material.diffuse, Vec3::new(0.5, 1.0, 1.0));
         assert_eq!(mesh(&import, 0).uvs, [Vec2::ZERO, Vec2::X, Vec2::Y]);
@@ -76,7 +76,7 @@ fn textures_lie_as_their_transform_says() {
     let transform =
         json!({"offset": [0.5, 0.0], "rotation": std::f64::consts::FRAC_PI_2, "scale": [2.0, 3.0], "texCoord": 3});
     let texture = json!({"index": 0, "texCoord": 7, "extensions": {"KHR_texture_transform": transform}});
-    let mut build = textured(&coded(ImageFormat::Png), masked(texture, 1.0));
+    let mut build = textured(&coded(ImageFormat::Png), masked(&texture, 1.0));
     build.document["extensionsRequired"] = json!(["KHR_texture_transform"]);
     let import = build.read().unwrap();
     let expected = [Vec2::new(0.5, 0.0), Vec2::new(0.5, -2.0), Vec2::new(3.5, 0.0)];
@@ -87,7 +87,7 @@ fn textures_lie_as_their_transform_says() {
 
 #[test]
 fn samplers_say_what_is_beyond_and_between() {
-    let mut build = textured(&coded(ImageFormat::Png), masked(json!({"index": 0}), 1.0));
+    let mut build = textured(&coded(ImageFormat::Png), masked(&json!({"index": 0}), 1.0));
     build.document["textures"][0]["sampler"] = json!(0);
     build.push("samplers", json!({"wrapS": 33071, "wrapT": 33648, "magFilter": 9728}));
     let import = build.read().unwrap();
@@ -107,15 +107,15 @@ fn an_image_that_cannot_be_read_is_noted_unless_it_cuts_holes() {
         assert!(
             notes(&import)[0].starts_with("materials[0].pbrMetallicRoughness.baseColorTexture is not shown: images[0]")
         );
-        let line = textured(broken, masked(json!({"index": 0}), 1.0)).refused();
+        let line = textured(broken, masked(&json!({"index": 0}), 1.0)).refused();
         assert!(line.starts_with("images[0]: ") && !line.contains('\n'), "{line}");
     }
     // A header that promises 65535 by 65535 texels is asked for no memory.
     let mut giant = good;
     giant[16..24].copy_from_slice(&[0, 0, 0xff, 0xff, 0, 0, 0xff, 0xff]);
-    let line = textured(&giant, masked(json!({"index": 0}), 1.0)).refused();
+    let line = textured(&giant, masked(&json!({"index": 0}), 1.0)).refused();
     assert!(line.starts_with("images[0]: "), "{line}");
-    let mut build = textured(&giant, masked(json!({"index": 0}), 1.0));
+    let mut build = textured(&giant, masked(&json!({"index": 0}), 1.0));
     build.document["images"][0] = json!({"uri": "../secret.png"});
     assert!(build.refused().starts_with("images[0].uri: "), "{}", build.refused());
 }
@@ -136,7 +136,7 @@ fn damaged_images_are_borne() {
                 let at = below(damaged.len());
                 damaged[at] = below(256) as u8;
             }
-            if let Err(fault) = textured(&damaged, masked(json!({"index": 0}), 1.0)).read() {
+            if let Err(fault) = textured(&damaged, masked(&json!({"index": 0}), 1.0)).read() {
                 assert!(!fault.to_string().contains('\n'), "{fault}");
             }
         }
