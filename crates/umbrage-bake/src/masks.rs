@@ -8,7 +8,7 @@ use std::fmt;
 use umbrage_plane::{Facet, View};
 use umbrage_raster::{BIN, Bins, Coverage, Triangle};
 
-/// The masks of casters that are drawn: what a bake asks, and whoever draws with [`Bins`] by himself.
+/// The masks of casters that are drawn: what a bake asks, and whoever draws with [`Bins`] directly.
 ///
 /// ```
 /// use glam::{DVec3, UVec2, Vec3};

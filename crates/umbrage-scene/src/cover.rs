@@ -11,8 +11,8 @@ pub struct Cover {
     /// Its colour multiplies [`Material::diffuse`](crate::Material::diffuse). Without one, colour and alpha are 1.
     pub texture: Option<Arc<Texture>>,
     /// The alpha test: nothing of the object is where the texture's alpha is below this. Light passes there, and the camera sees what is
-    /// behind. `None` never asks. A factor of alpha is left out by dividing this by it: what such a division by 0 gives means what
-    /// the product would have, as nothing is below NaN.
+    /// behind. `None` never asks. To multiply alpha by a factor, divide this by the factor, which may be 0: a positive cutoff becomes
+    /// +∞, where nothing is there, and a cutoff of 0 becomes NaN, where everything is, as nothing is below NaN.
     pub cutoff: Option<f32>,
 }
 

@@ -16,7 +16,7 @@ pub struct Mesh {
     /// One a triangle: the smooth piece of surface it belongs to (a box has six, a sphere one).
     pub surfaces: Vec<u32>,
     /// Where each position lies in a [`Texture`](crate::Texture), one a position: (0, 0) is the image's upper left corner, (1, 1)
-    /// its lower right one. Empty for a mesh without a texture, all of which lies at (0, 0).
+    /// its lower right one. May be empty: then every position lies at (0, 0).
     pub uvs: Vec<Vec2>,
 }
 

@@ -117,7 +117,7 @@ impl Object {
         Self { cover, ..self }
     }
 
-    /// True for the closed boundary of a solid. One that has holes is none: its inside is seen, and light comes in.
+    /// True for the closed boundary of a solid. An object with holes is not one: its inside is seen, and light comes in.
     pub fn is_solid(&self) -> bool {
         self.solid && !self.cover.has_holes()
     }

@@ -60,7 +60,7 @@ pub enum Interpolation {
 #[non_exhaustive]
 pub enum TextureError {
     /// A side of 0 texels.
-    #[error("a texture of {0} x {1} texels has none")]
+    #[error("a texture of {0} x {1} texels is empty")]
     Empty(u32, u32),
     /// Not one value for each texel.
     #[error("a texture of {} x {} texels has {texels} of them", size[0], size[1])]
