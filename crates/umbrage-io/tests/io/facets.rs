@@ -257,7 +257,7 @@ fn headers_of_the_second_part_that_lie() {
     let channels = second("channels", "chlist");
     assert_eq!(message(&patched(channels, b"f_cets")), "part facets: channels is f_cets: not the one channel facets");
     assert!(message(&patched(channels + 7, &[2])).starts_with("part facets: channel is F32"));
-    assert!(message(&patched(second("compression", "compression"), &[4])).contains("compression is "));
+    assert!(message(&patched(second("compression", "compression"), &[5])).contains("compression is "));
     // The name of a part is for people.
     assert!(read(&patched(second("name", "string"), b"F")).expect("the map") == file().0);
 }
