@@ -188,7 +188,7 @@ fn component(at: &At) -> Result<Component, GltfError> {
     code.and_then(Component::of_code).ok_or_else(|| at.wrong("componentType", "5120, 5121, 5122, 5123, 5125 or 5126"))
 }
 
-/// The elements in the buffer view that `holder` names; `None` where it names none. `accessor` is where a count that does not fit is told.
+/// The elements in the buffer view that `holder` names; `None` where it names none. `accessor` is where a count that does not fit is reported.
 fn view<'a>(
     file: &'a File,
     holder: &At,

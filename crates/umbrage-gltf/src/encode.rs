@@ -12,7 +12,7 @@ use umbrage_scene::{Light, Material, Mesh, Object, Scene};
 /// Each object is a node with a mesh of one primitive, about a root that stands at [`Scene::origin`]; patches are diced for the scene's camera.
 /// A material keeps its diffuse colour, and what passes it as its alpha. The camera keeps its view, but for the size of its picture and a window
 /// off its axis. Lights are spots, or suns where their rays are parallel, with the window of their map in `extras.shadow`; windows that are
-/// not square about the axis are widened until they are. A light's colour is told as candela or lux such that the middle of the
+/// not square about the axis are widened until they are. A light's colour is given in candela or lux such that the middle of the
 /// scene's box receives it; of its tree the file keeps nothing. Flags that are not set, [`Object::casts`], [`Object::receives`] and
 /// [`Light::casts`], are members of `extras`.
 ///
