@@ -101,7 +101,7 @@ fn blended(primitive: &Primitive, joints: &[DAffine3], id: usize) -> Result<DAff
 }
 
 /// A normal where a space was transformed: square to what its plane became, and still outward where that was mirrored.
-/// 0 where there is no such direction.
+/// Zero where no direction is left.
 fn covector(matrix: &DMat3, normal: DVec3) -> Vec3 {
     let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
     let turned = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * normal;

@@ -80,7 +80,7 @@ pub enum TextureError {
 
 impl Texture {
     /// From 8 bits a channel, rows from the top: colour as sRGB, as files have it, and alpha linear. Repeats, and is bilinear between
-    /// its texels, until it is told otherwise.
+    /// its texels, unless set otherwise.
     ///
     /// # Errors
     /// [`TextureError`], unless there is one texel for each place of `size`, and at least one.
@@ -88,7 +88,7 @@ impl Texture {
         Self::new(size, texels.len(), Texels::Srgb(texels))
     }
 
-    /// From linear RGB and alpha, rows from the top. Repeats, and is bilinear between its texels, until it is told otherwise.
+    /// From linear RGB and alpha, rows from the top. Repeats, and is bilinear between its texels, unless set otherwise.
     ///
     /// # Errors
     /// [`TextureError`], unless there is one texel for each place of `size`, and at least one, and all are finite.

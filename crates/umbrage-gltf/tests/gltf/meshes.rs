@@ -70,7 +70,7 @@ fn without_normals_triangles_are_flat_and_with_them_vertices_are_shared() {
     build.document["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = normals.into();
     let smooth = build.read().unwrap();
     assert_eq!(mesh(&smooth, 0).positions.len(), 4);
-    // What is no direction becomes that of a facet.
+    // A normal without a direction becomes that of its facet.
     assert_eq!(mesh(&smooth, 0).normals, [Vec3::Z, Vec3::new(0.6, 0.0, 0.8), Vec3::Z, Vec3::Z]);
     assert_eq!(mesh(&smooth, 0).surfaces, [0, 0]);
 }

@@ -18,7 +18,7 @@ fn flat(corners: &[[[f64; 3]; 3]]) -> Vec<f64> {
 
 #[test]
 fn translation_rotation_and_scale_apply_from_the_right() {
-    // A quarter turn about z, told by a quaternion that is not of unit length.
+    // A quarter turn about z, given by a quaternion that is not of unit length.
     let build = placed(json!({"translation": [10, 20, 30], "rotation": [0, 0, 5, 5], "scale": [2, 3, 4]}));
     let found = corners(&build.read().unwrap(), 0);
     near(&flat(&found), &[10.0, 20.0, 30.0, 10.0, 22.0, 30.0, 7.0, 20.0, 30.0]);
