@@ -139,7 +139,19 @@ fn yard(seed: u32, directional: bool) -> Yard {
         points.push(SurfacePoint { object: 9, ..SurfacePoint::at(free, Vec3::Y) });
     }
     let light = halves(key, 900, 30.0) + DVec3::Y * 12.0;
-    Yard { faces, points, light: if directional { light.extend(0.0) } else { light.extend(1.0) } }
+    let light = light.extend(if directional { 0.0 } else { 1.0 });
+    // A point that sees the light exactly past an edge lies on a shadow's border: both answers are right there.
+    points.retain(|point| faces.iter().all(|face| !sees_past_border(point.position, light, face)));
+    Yard { faces, points, light }
+}
+
+/// Whether the light's ray to a point goes exactly through a face's border, all of eighths of a unit.
+fn sees_past_border(point: DVec3, light: DVec4, face: &Face) -> bool {
+    let eighths = |at: DVec3| (at * 8.0).as_i64vec3();
+    let (from, toward) = (eighths(point), eighths(light.truncate()));
+    // As far as any face of a yard reaches along a direction whose steps are halves.
+    let to = if light.w == 0.0 { from + toward * 64 } else { toward };
+    crossing(from, to, face.corners.map(|corner| eighths(corner.as_dvec3()))) == Crossing::Border
 }
 
 /// What is in shadow after everything was moved and then made larger.
