@@ -4,7 +4,7 @@ use super::words::WordPart;
 use super::{Layout, Nearest, matrices, text};
 use crate::error::Fault;
 use exr::meta::MetaData;
-use exr::meta::header::Header;
+use exr::meta::header::{Header, LayerAttributes};
 use exr::prelude::{AttributeValue, Text};
 use glam::{IVec2, UVec2};
 use std::io::{BufRead, Read};
@@ -190,8 +190,8 @@ fn described(header: &Header, size: UVec2) -> Result<text::Description, Fault> {
             Err(Fault::new("comments: size", format!("{} x {}", inside.x, inside.y), problem))
         };
     }
-    if attributes.software_name.as_ref().is_some_and(|name| name.as_slice() == text::SOFTWARE.as_bytes()) {
-        return Err(Fault::new("comments", "no view", "software is umbrage, which writes one"));
+    if is_ours(header) {
+        return Err(Fault::new("comments", "no view", "the file is one of umbrage, which writes one"));
     }
     let missing = |field: &str| Fault::new(field, "missing", "a shadow map needs it");
     let other = |name: &str| match attributes.other.get(&Text::from(name)) {
@@ -207,4 +207,17 @@ fn described(header: &Header, size: UVec2) -> Result<text::Description, Fault> {
         size,
     )?;
     Ok(text::Description { view, stored: Stored::First, window: TexelRect::of_size(size), digest: None })
+}
+
+/// Whether anything in a header is what only our files have: whoever damages one place of it does not make it a file of another
+/// maker, whose depths no digest vouches for.
+fn is_ours(header: &Header) -> bool {
+    let LayerAttributes { comments, software_name, other, .. } = &header.own_attributes;
+    let texts = [comments, software_name].into_iter().flatten().map(Text::as_slice);
+    let others = other.values().filter_map(|value| match value {
+        AttributeValue::Text(text) => Some(text.as_slice()),
+        AttributeValue::Custom { bytes, .. } => Some(bytes.as_slice()),
+        _ => None,
+    });
+    texts.chain(others).any(text::is_ours)
 }

@@ -93,6 +93,13 @@ pub(crate) fn to_view(text: &str) -> Option<Result<Description, Fault>> {
     Some(parse(lines))
 }
 
+/// Whether a header's text, perhaps damaged, is what our files name as their software, or holds the first line or the digest of
+/// [`of_map`].
+pub(crate) fn is_ours(text: &[u8]) -> bool {
+    let marks = [SIGNATURE, "\ndigest="].map(str::as_bytes);
+    text == SOFTWARE.as_bytes() || marks.iter().any(|mark| text.windows(mark.len()).any(|part| part == *mark))
+}
+
 fn parse(lines: &str) -> Result<Description, Fault> {
     let line = |name: &str| value(lines, name).map(str::to_owned);
     let need = |name: &str| line(name).ok_or_else(|| fault(name, "missing", "a view needs it"));

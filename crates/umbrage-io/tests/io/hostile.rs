@@ -1,15 +1,27 @@
 use crate::{map, spot, sun};
 use glam::UVec2;
 use proptest::prelude::*;
+use std::sync::LazyLock;
 use umbrage_depth::Raw;
 use umbrage_io::{DEFAULT_BUDGET, Fault, decode_shadow_map, encode_shadow_map};
 
 const TEXELS: u64 = 1 << 16;
 
 fn file() -> (Raw, Vec<u8>) {
-    let raw = map(&spot(UVec2::new(150, 140)));
-    let bytes = encode_shadow_map(&raw).expect("written");
-    (raw, bytes)
+    static FILE: LazyLock<(Raw, Vec<u8>)> = LazyLock::new(|| {
+        let raw = map(&spot(UVec2::new(150, 140)));
+        let bytes = encode_shadow_map(&raw).expect("written");
+        (raw, bytes)
+    });
+    FILE.clone()
+}
+
+/// Takes from a file all that says that it is one of ours: what is left is a file of another maker.
+fn disown(bytes: &mut [u8]) {
+    let digest = bytes.windows(8).position(|part| part == b"\ndigest=").expect("the digest is there");
+    for at in [value(bytes, "comments", "string"), digest + 1, value(bytes, "software", "string")] {
+        bytes[at] = b'U';
+    }
 }
 
 /// Whatever comes of it must be an error of one line, or the very map that was written; never a panic.
@@ -191,11 +203,9 @@ fn texts_that_lie() {
     let message = patched(line("near") - 5, b"mear=").expect_err("no near").to_string();
     assert_eq!(message, "comments: near is missing: a view needs it");
     // Without the signature the matrices speak.
-    assert!(patched(text, b"U").expect_err("ours without a view").to_string().contains("software is umbrage"));
-    let software = value(&bytes, "software", "string");
+    assert!(patched(text, b"U").expect_err("ours without a view").to_string().contains("one of umbrage"));
     let (_, mut foreign) = file();
-    foreign[text] = b'U';
-    foreign[software] = b'U';
+    disown(&mut foreign);
     assert!(survives(&foreign).is_ok());
     for (attribute, kind, with) in [
         ("worldToCamera", "m44f", f32::NAN.to_le_bytes()),
@@ -206,8 +216,7 @@ fn texts_that_lie() {
         ("far", "float", f32::NAN.to_le_bytes()),
     ] {
         let (_, mut bytes) = file();
-        bytes[text] = b'U';
-        bytes[software] = b'U';
+        disown(&mut bytes);
         let at = value(&bytes, attribute, kind);
         bytes[at..at + 4].copy_from_slice(&with);
         assert!(survives(&bytes).is_err(), "{attribute}");
@@ -223,13 +232,31 @@ fn a_nan_depth_is_named() {
     assert_eq!(bytes[at..], 2f32.to_le_bytes());
     bytes[at..].copy_from_slice(&f32::NAN.to_le_bytes());
     assert!(decode_shadow_map(&bytes, DEFAULT_BUDGET).expect_err("damaged").field.contains("digest"));
-    // Without view and digest it is a file of another maker.
-    for (attribute, kind) in [("comments", "string"), ("software", "string")] {
-        let at = value(&bytes, attribute, kind);
-        bytes[at] = b'U';
-    }
+    disown(&mut bytes);
     let message = decode_shadow_map(&bytes, DEFAULT_BUDGET).expect_err("not a depth").to_string();
     assert!(message.starts_with("channel Z is") && message.contains("(1, 0)"), "{message}");
+}
+
+/// A file that no longer says whose it is has no digest that is asked about, and a view of lower precision.
+#[test]
+fn two_damaged_bytes_do_not_make_a_file_of_another_maker() {
+    let raw = map(&spot(UVec2::new(4, 4)));
+    let bytes = encode_shadow_map(&raw).expect("written");
+    let about = |name: &str, behind: usize| {
+        let value = value(&bytes, name, "string");
+        value - name.len() - "\0string\0".len() - 4..value + behind
+    };
+    for first in about("comments", 16) {
+        for second in about("software", 7) {
+            for damage in [0, 1, b'a', 255] {
+                let mut bytes = bytes.clone();
+                (bytes[first], bytes[second]) = (damage, damage);
+                if let Ok(map) = survives(&bytes) {
+                    assert!(map == raw, "bytes {first} and {second} set to {damage}");
+                }
+            }
+        }
+    }
 }
 
 proptest! {
