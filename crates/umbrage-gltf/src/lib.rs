@@ -69,6 +69,7 @@ mod container;
 mod encode;
 mod error;
 mod file;
+mod image;
 mod import;
 mod json;
 mod lights;

@@ -4,12 +4,11 @@ use crate::GltfError;
 use crate::accessor::{Accessor, Component, Wanted};
 use crate::error::quoted;
 use crate::file::File;
+use crate::image::{self, ImageError};
 use crate::json::At;
 use crate::uri;
 use glam::{DMat2, DVec2, UVec2, Vec2};
-use image::{ImageReader, Limits};
 use std::borrow::Cow;
-use std::io::Cursor;
 use std::sync::Arc;
 use umbrage_scene::{Interpolation, Texture, Wrap};
 
@@ -103,16 +102,11 @@ fn texels(file: &File, at: &At) -> Result<(UVec2, Vec<[u8; 4]>), GltfError> {
         Some(address) => Cow::from(uri::fetch(&at.path_of("uri"), address, usize::MAX, file.folder, &file.budget)?),
         None => Cow::from(file.view_bytes(at)?),
     };
-    let wrong = |fault: &dyn std::fmt::Display| {
-        GltfError::field(&at.path, quoted(&fault.to_string()), "a PNG or JPEG image without faults")
-    };
-    let reader = || ImageReader::new(Cursor::new(&bytes[..])).with_guessed_format().map_err(|fault| wrong(&fault));
-    let (width, height) = reader()?.into_dimensions().map_err(|fault| wrong(&fault))?;
-    file.budget.charge(&at.path, u64::from(width) * u64::from(height), TEXEL)?;
-    let mut reader = reader()?;
-    let mut limits = Limits::default();
-    limits.max_alloc = Some((u64::from(width) * u64::from(height)).saturating_mul(TEXEL).saturating_add(1 << 20));
-    reader.limits(limits);
-    let image = reader.decode().map_err(|fault| wrong(&fault))?.into_rgba8();
-    Ok((UVec2::new(width, height), image.pixels().map(|pixel| pixel.0).collect()))
+    let allow = |size: UVec2| file.budget.charge(&at.path, u64::from(size.x) * u64::from(size.y), TEXEL);
+    image::decode(&bytes, allow).map_err(|fault| match fault {
+        ImageError::Unreadable(fault) => {
+            GltfError::field(&at.path, quoted(&fault), "a PNG or JPEG image without faults")
+        }
+        ImageError::Refused(fault) => fault,
+    })
 }

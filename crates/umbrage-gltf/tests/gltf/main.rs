@@ -5,6 +5,7 @@ mod build;
 mod cameras;
 mod files;
 mod hostile;
+mod images;
 mod lights;
 mod materials;
 mod meshes;

@@ -1,27 +1,23 @@
 use crate::build::{Build, TRIANGLE, mesh, notes};
 use glam::{DVec2, Vec2, Vec3};
-use image::{ImageFormat, Rgba, RgbaImage};
 use serde_json::{Value, json};
-use std::io::Cursor;
 
 /// A red texel that is there, a green one that is half there, a blue one that is not, a white one.
 const TEXELS: [[u8; 4]; 4] = [[255, 0, 0, 255], [0, 255, 0, 128], [0, 0, 255, 0], [255; 4]];
 
 /// An image of two by two texels.
-fn coded(format: ImageFormat) -> Vec<u8> {
-    let image = RgbaImage::from_fn(2, 2, |x, y| Rgba(TEXELS[(y * 2 + x) as usize]));
-    let mut bytes = Cursor::new(Vec::new());
-    if format == ImageFormat::Jpeg {
-        let opaque: image::RgbImage = image::DynamicImage::from(image).into_rgb8();
-        opaque.write_to(&mut bytes, format).unwrap();
-    } else {
-        image.write_to(&mut bytes, format).unwrap();
-    }
-    bytes.into_inner()
+fn png() -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 2, 2);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.write_header().and_then(|mut writer| writer.write_image_data(&TEXELS.concat())).unwrap();
+    bytes
 }
 
+const JPEG: &[u8] = include_bytes!("images/colours.jpg");
+
 /// A triangle with texture coordinates and a material.
-fn textured(image: &[u8], material: Value) -> Build {
+pub(crate) fn textured(image: &[u8], material: Value) -> Build {
     let mut build = Build::new();
     let positions = build.floats(&TRIANGLE);
     let places: [[f32; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
@@ -45,7 +41,7 @@ fn masked(texture: &Value, alpha: f32) -> Value {
 #[test]
 fn a_mask_cuts_holes_where_the_image_is_transparent() {
     for alpha in [1.0, 0.4] {
-        let import = textured(&coded(ImageFormat::Png), masked(&json!({"index": 0}), alpha)).read().unwrap();
+        let import = textured(&png(), masked(&json!({"index": 0}), alpha)).read().unwrap();
         let object = &import.scene.objects[0];
         assert_eq!(object.material.diffuse, Vec3::new(0.5, 1.0, 1.0));
         assert_eq!(mesh(&import, 0).uvs, [Vec2::ZERO, Vec2::X, Vec2::Y]);
@@ -63,9 +59,9 @@ fn a_mask_cuts_holes_where_the_image_is_transparent() {
 
 #[test]
 fn colours_alone_cut_no_holes() {
-    for (format, mode) in [(ImageFormat::Png, "OPAQUE"), (ImageFormat::Png, "BLEND"), (ImageFormat::Jpeg, "OPAQUE")] {
+    for (image, mode) in [(png(), "OPAQUE"), (png(), "BLEND"), (JPEG.to_vec(), "OPAQUE")] {
         let material = json!({"alphaMode": mode, "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}});
-        let import = textured(&coded(format), material).read().unwrap();
+        let import = textured(&image, material).read().unwrap();
         let cover = &import.scene.objects[0].cover;
         assert!(cover.texture.is_some() && cover.cutoff.is_none(), "{mode}");
     }
@@ -76,7 +72,7 @@ fn textures_lie_as_their_transform_says() {
     let transform =
         json!({"offset": [0.5, 0.0], "rotation": std::f64::consts::FRAC_PI_2, "scale": [2.0, 3.0], "texCoord": 3});
     let texture = json!({"index": 0, "texCoord": 7, "extensions": {"KHR_texture_transform": transform}});
-    let mut build = textured(&coded(ImageFormat::Png), masked(&texture, 1.0));
+    let mut build = textured(&png(), masked(&texture, 1.0));
     build.document["extensionsRequired"] = json!(["KHR_texture_transform"]);
     let import = build.read().unwrap();
     let expected = [Vec2::new(0.5, 0.0), Vec2::new(0.5, -2.0), Vec2::new(3.5, 0.0)];
@@ -87,7 +83,7 @@ fn textures_lie_as_their_transform_says() {
 
 #[test]
 fn samplers_say_what_is_beyond_and_between() {
-    let mut build = textured(&coded(ImageFormat::Png), masked(&json!({"index": 0}), 1.0));
+    let mut build = textured(&png(), masked(&json!({"index": 0}), 1.0));
     build.document["textures"][0]["sampler"] = json!(0);
     build.push("samplers", json!({"wrapS": 33071, "wrapT": 33648, "magFilter": 9728}));
     let import = build.read().unwrap();
@@ -100,7 +96,7 @@ fn samplers_say_what_is_beyond_and_between() {
 
 #[test]
 fn an_image_that_cannot_be_read_is_noted_unless_it_cuts_holes() {
-    let good = coded(ImageFormat::Png);
+    let good = png();
     let opaque = json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}});
     for broken in [&good[..40], b"no image".as_slice(), &[]] {
         let import = textured(broken, opaque.clone()).read().unwrap();
@@ -122,8 +118,8 @@ fn an_image_that_cannot_be_read_is_noted_unless_it_cuts_holes() {
 
 #[test]
 fn damaged_images_are_borne() {
-    let good = coded(ImageFormat::Png);
-    let jpeg = coded(ImageFormat::Jpeg);
+    let good = png();
+    let jpeg = JPEG.to_vec();
     let mut state = 7u64;
     let mut below = |end: usize| {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
