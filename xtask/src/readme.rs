@@ -12,8 +12,9 @@ const BESIDE: &str = "../umbrage/";
 
 /// Makes a fresh package outside the workspace of nothing but the README's two blocks, runs it, and says whether all went well.
 ///
-/// The workspace's own lock file goes with it, so that no other versions are fetched than those that are tested here.
-pub fn run(root: &Path) -> anyhow::Result<bool> {
+/// The workspace's own lock file goes with it, so that no other versions are fetched than those that are tested here. `settings` are
+/// cargo's, as variables of its environment.
+pub fn run(root: &Path, settings: &[(&str, &str)]) -> anyhow::Result<bool> {
     let text = std::fs::read_to_string(root.join("README.md")).context("README.md")?;
     let (manifest, program) = (block(&text, "toml")?, block(&text, "rust")?);
     let folder = std::env::temp_dir().join(format!("umbrage-readme-{}", std::process::id()));
@@ -25,6 +26,7 @@ pub fn run(root: &Path) -> anyhow::Result<bool> {
     let status = Command::new(cargo())
         .args(["run", "--quiet"])
         .current_dir(&folder)
+        .envs(settings.iter().copied())
         .env("CARGO_TARGET_DIR", root.join("target/readme"))
         .status()
         .context("cargo run")?;

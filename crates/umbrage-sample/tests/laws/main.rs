@@ -1,6 +1,8 @@
 //! The laws that every pattern obeys, each over every pattern (C-9, R87-11).
 
+mod key;
 mod twins;
+mod vectors;
 
 use fearless_simd::{Level, Simd, dispatch};
 use glam::Vec2;

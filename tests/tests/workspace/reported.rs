@@ -1,5 +1,5 @@
 //! What people report about shadow maps and depth files, each situation rebuilt small, with the right answer beside what is found:
-//! `cargo test -p umbrage-tests --test reported -- --nocapture` prints the table.
+//! `cargo test -p umbrage-tests reported -- --nocapture` prints the table.
 
 use glam::{DMat3, DVec3, UVec2, Vec3};
 use std::fmt::Display;

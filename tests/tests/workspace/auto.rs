@@ -3,7 +3,7 @@
 use glam::{DVec3, UVec2, Vec3};
 use umbrage_bake::{Refinement, bake_refined};
 use umbrage_depth::{Map, Storage};
-use umbrage_oracle::{Body, Face, Geometry, RayCast};
+use umbrage_oracle::{AreaLight, Body, Face, Geometry, RayCast};
 use umbrage_plane::{Cells, Kind, Rules, Sectors, SpotView, SurfacePoint, View, cube_views, sector_views};
 use umbrage_raster::Triangle;
 use umbrage_recipe::{LightUse, Recipe};
@@ -116,9 +116,8 @@ fn nothing_is_detached_or_leaks_at_contacts_in_any_kind_of_view() {
     }
 }
 
-/// A lamp among boxes in a room: its six maps answer as one, at the seams too.
-#[test]
-fn the_six_maps_of_a_lamp_are_one_light() {
+/// A room with boxes in it, about a lamp at 0.
+fn room() -> Vec<(DVec3, DVec3)> {
     let mut boxes = Vec::new();
     for axis in DVec3::AXES {
         for side in [-1.0, 1.0] {
@@ -133,6 +132,13 @@ fn the_six_maps_of_a_lamp_are_one_light() {
         let (middle, half) = (way * (3.0 + 3.0 * unit(3).abs()), 0.25 + 0.4 * unit(4).abs());
         boxes.push((middle - half, middle + half));
     }
+    boxes
+}
+
+/// A lamp among boxes in a room: its six maps answer as one, at the seams too.
+#[test]
+fn the_six_maps_of_a_lamp_are_one_light() {
+    let boxes = room();
     let triangles = soup(&boxes);
     let geometry = truth(&triangles, boxes.len());
     let ray = RayCast::everywhere(&geometry, DVec3::ZERO.extend(1.0));
@@ -164,6 +170,30 @@ fn the_six_maps_of_a_lamp_are_one_light() {
         let (few, judged) = wrong(&ray, &lamp, DVec3::ZERO, &seams, 0.08);
         assert!(judged > 500 && few * 400 <= judged, "{few} of {judged} at seams, {half}");
     }
+}
+
+/// With a size it is a sphere, whose disc every point of the room sees.
+#[test]
+fn a_lamp_with_a_size_is_as_soft_as_rays_to_its_sphere() {
+    const RADIUS: f64 = 0.3;
+    let boxes = room();
+    let triangles = soup(&boxes);
+    let geometry = truth(&triangles, boxes.len());
+    let rays = AreaLight::new(RayCast::everywhere(&geometry, DVec3::ZERO.extend(1.0)), RADIUS);
+    let views = cube_views(DVec3::ZERO, 0.5, 40.0, 128).unwrap();
+    let recipe: Recipe = format!("auto,light={RADIUS},maps=32").parse().unwrap();
+    let lamp = recipe.shadow_of(&views, &LightUse::default(), |_, _| triangles.iter().copied()).unwrap();
+    assert_eq!(lamp.maps.len(), 6 * 32);
+    let asked = points(&boxes, 4000, 0.02);
+    let facing = |point: &&SurfacePoint| point.normal.as_dvec3().dot(-point.position.normalize()) > 0.1;
+    let asked: Vec<SurfacePoint> = asked.iter().filter(facing).copied().collect();
+    let (mut found, mut right) = (vec![0.0; asked.len()], vec![0.0; asked.len()]);
+    lamp.shadow.fractions(&asked, KEY, &mut found);
+    rays.fractions(&asked, KEY, &mut right);
+    let soft = right.iter().filter(|right| (0.05..0.95).contains(*right)).count();
+    let squares: f32 = found.iter().zip(&right).map(|(found, right)| (found - right).powi(2)).sum();
+    let rms = (squares / asked.len() as f32).sqrt();
+    assert!(soft * 20 > asked.len() && rms < 0.03, "{rms} over {}, of which {soft} are in penumbrae", asked.len());
 }
 
 /// The sectors about a mast among boxes answer as one light, where two of them meet too.

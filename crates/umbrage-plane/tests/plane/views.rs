@@ -275,3 +275,24 @@ fn a_view_stores_the_kind_of_depth_that_suits_its_range() {
     let chosen = of(1e6, 1e6 + 8.0).with_kind(Kind::Radial);
     assert_eq!(chosen.with_size(UVec2::splat(9)).unwrap().scaled(2.0).unwrap().kind(), Kind::Radial);
 }
+
+/// Points of a sphere lie evenly over its disc, seen from any side: of those within a part of the radius there are as many as of its area.
+#[test]
+fn points_of_a_sphere_fill_its_disc_from_every_side() {
+    let lamp = View::perspective(DVec3::new(1.0, 9.0, 2.0), DVec3::ZERO, DVec3::Z, 0.8, 2.0, 20.0, SIZE).unwrap();
+    let (count, radius) = (4096, 0.25);
+    let views = lamp.over_sphere(radius, count).unwrap();
+    for side in [DVec3::X, DVec3::Y, DVec3::Z, DVec3::new(3.0, -1.0, 2.0).normalize()] {
+        let off = |view: &View| (view.light().truncate() - lamp.light().truncate()).reject_from_normalized(side);
+        for part in [0.25, 0.5, 0.75, 1.0 + 1e-9] {
+            let within = views.iter().filter(|view| off(view).length() <= radius * part).count();
+            let share = within as f64 / f64::from(count);
+            assert!((share - (part * part).min(1.0)).abs() < 0.01, "{share} within {part} of the radius, from {side}");
+        }
+        let middle = views.iter().map(off).sum::<DVec3>() / f64::from(count);
+        assert!(middle.length() < 0.01 * radius, "{middle}");
+    }
+    assert!(views.iter().all(|view| view.ahead().abs_diff_eq(lamp.ahead(), 1e-12) && view.size() == lamp.size()));
+    assert!(lamp.over_sphere(f64::INFINITY, 3).is_err() && lamp.over_sphere(-1.0, 3).is_err());
+    assert_eq!(lamp.over_sphere(0.0, 1).unwrap()[0], lamp);
+}
