@@ -2,6 +2,21 @@
 
 use crate::{Kind, Projection, Rules, Sampling, TexelRect, View, ViewError};
 use glam::{DMat4, DQuat, DVec2, DVec3, UVec2};
+use std::f64::consts::FRAC_PI_2;
+
+/// The angle from one seed of a sunflower to the next, radians.
+const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
+
+/// The distance from the centre of a unit sphere within which lies a share, in 0..=1, of what is spread by 1 / √(1 − r²): r = sin t with
+/// t − sin t · cos t = share · π / 2.
+fn distance_of(share: f64) -> f64 {
+    let (mut low, mut high) = (0.0, FRAC_PI_2);
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        if middle - middle.sin() * middle.cos() < share * FRAC_PI_2 { low = middle } else { high = middle }
+    }
+    low.sin()
+}
 
 impl View {
     /// The same view whose map stores another kind of depth.
@@ -90,7 +105,6 @@ impl View {
     /// # Errors
     /// [`ViewError::Factor`] unless `radius` is finite and not negative; [`ViewError`] when a view ends at a place that is not finite.
     pub fn over_disc(self, radius: f64, count: u32) -> Result<Vec<Self>, ViewError> {
-        const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
         if !(radius.is_finite() && radius >= 0.0) {
             return Err(ViewError::Factor(radius));
         }
@@ -99,6 +113,28 @@ impl View {
             DVec2::from_angle(GOLDEN_ANGLE * f64::from(index)) * (radius * share.sqrt())
         };
         (0..count).map(|index| self.at_offset(at(index))).collect()
+    }
+
+    /// Views from `count` points inside a sphere about this light's place, turned as this one: a light of that size is their mean,
+    /// whichever way it shines. `radius` is in world units.
+    ///
+    /// Seen from anywhere far enough the points lie evenly over the sphere's disc: their density at a distance r from the centre goes with
+    /// 1 / √(radius² − r²), whose integral along every line through the sphere is the same.
+    ///
+    /// # Errors
+    /// [`ViewError::Factor`] unless `radius` is finite and not negative; [`ViewError`] when a view ends at a place that is not finite.
+    pub fn over_sphere(self, radius: f64, count: u32) -> Result<Vec<Self>, ViewError> {
+        if !(radius.is_finite() && radius >= 0.0) {
+            return Err(ViewError::Factor(radius));
+        }
+        let at = |index: u32| {
+            let height = 1.0 - (2.0 * f64::from(index) + 1.0) / f64::from(count);
+            let around = DVec2::from_angle(GOLDEN_ANGLE * f64::from(index)) * (1.0 - height * height).sqrt();
+            // Distances in the order of van der Corput, so that neighbours on the sphere lie at different ones.
+            let share = (f64::from(index.reverse_bits()) + 0.5) / 2f64.powi(32);
+            around.extend(height) * (radius * distance_of(share))
+        };
+        (0..count).map(|index| self.moved(at(index))).collect()
     }
 
     /// The same light from another point of a disc.

@@ -93,7 +93,8 @@ impl Recipe {
     ///
     /// `auto` makes of it what the light is:
     /// * a spot of a half-angle above 70° has [several maps](View::faces_ahead) instead of one;
-    /// * with `light=`, the mean of maps at [points of the light](View::over_disc);
+    /// * with `light=`, the mean of maps at points of the light: [of a disc](View::over_disc) where it has one view, [of a
+    ///   sphere](View::over_sphere) where it has several;
     /// * over several moments, the mean of maps of each;
     /// * casters that let light pass are kept in a deep map, the others in a map of facets, and light passes [through both](Through).
     ///
@@ -119,7 +120,7 @@ impl Recipe {
     /// ```
     ///
     /// # Errors
-    /// When no view, or several for another recipe than `auto`, are given, or several for a light with a size; when `window=fitted` knows no receivers; when no view can stand at a point of the light;
+    /// When no view, or several for another recipe than `auto`, are given; when `window=fitted` knows no receivers; when no view can stand at a point of the light;
     /// and when views around one light do not belong together.
     pub fn shadow_of<'a, I>(
         &self,
@@ -136,8 +137,8 @@ impl Recipe {
         let [first, others @ ..] = views else {
             return Err(RecipeError::value("views", "none", "the view of a light"));
         };
-        if !others.is_empty() && (!auto || light.is_some()) {
-            let expected = "one, unless the recipe is auto without light=";
+        if !others.is_empty() && !auto {
+            let expected = "one, unless the recipe is auto";
             return Err(RecipeError::value("views", &views.len().to_string(), expected));
         }
         if window == Window::Fitted && with.receivers.is_none() {
@@ -165,24 +166,40 @@ impl Recipe {
         }
         let wide = |view: &View| view.is_perspective() && view.cone().is_some_and(|cos_half| cos_half < WIDE);
         let split = others.is_empty() && wide(first);
-        let centres = match light {
-            None => vec![*first],
+        let several = |view: View| -> Result<Vec<View>, RecipeError> {
+            if split {
+                view.faces_ahead().map(Vec::from).map_err(|error| of_view("light", "wide", &error))
+            } else {
+                Ok(vec![view])
+            }
+        };
+        // The views of each point of the light.
+        let points = match light {
+            None if others.is_empty() => vec![several(*first)?],
+            None => vec![views.to_vec()],
             Some(radius) => {
-                let view = fitted(*first)?;
-                let count = self.values.maps.unwrap_or_else(|| {
-                    points_of(&view, radius, casters(&view, 0).into_iter().map(Into::into), with.receivers)
-                });
-                let disc = first.over_disc(f64::from(radius), count);
-                disc.map_err(|error| of_view("light", &radius.to_string(), &error))?
+                let mut count = self.values.maps.unwrap_or_default();
+                if self.values.maps.is_none() {
+                    for view in views {
+                        let view = fitted(*view)?;
+                        let casters = casters(&view, 0).into_iter().map(Into::into);
+                        count = count.max(points_of(&view, radius, casters, with.receivers));
+                    }
+                }
+                let of_light = |error| of_view("light", &radius.to_string(), &error);
+                let radius = f64::from(radius);
+                if others.is_empty() {
+                    let disc = first.over_disc(radius, count).map_err(of_light)?;
+                    disc.into_iter().map(several).collect::<Result<_, _>>()?
+                } else {
+                    let spheres = views.iter().map(|view| view.over_sphere(radius, count));
+                    let spheres = spheres.collect::<Result<Vec<_>, _>>().map_err(of_light)?;
+                    (0..count as usize).map(|point| spheres.iter().map(|views| views[point]).collect()).collect()
+                }
             }
         };
         let mut all = Vec::new();
-        for centre in &centres {
-            let faces = match (split, others.is_empty()) {
-                (true, _) => centre.faces_ahead().map_err(|error| of_view("light", "wide", &error))?.to_vec(),
-                (_, true) => vec![*centre],
-                _ => views.to_vec(),
-            };
+        for faces in points {
             let faces = faces.into_iter().map(fitted).collect::<Result<Vec<_>, _>>()?;
             for moment in 0..moments {
                 all.push(made.over(&faces, |view| casters(view, moment))?);
@@ -190,7 +207,7 @@ impl Recipe {
         }
         let one = if all.len() == 1 { all.pop() } else { None };
         let shadow = one.unwrap_or_else(|| Box::new(Mean(all)));
-        if split || light.is_some() {
+        if split || (light.is_some() && others.is_empty()) {
             return Ok(made.finish(Box::new(Bounded { view: *first, by_cone: split, shadow })));
         }
         Ok(made.finish(shadow))
@@ -274,8 +291,10 @@ fn points_of<'a>(
 ) -> u32 {
     let zeta = |at: &DVec3| -view.world_to_eye().transform_point3(*at).z;
     let (mut nearest, mut farthest) = (f64::INFINITY, f64::NEG_INFINITY);
-    for corner in casters.flat_map(|caster| caster.triangle.corners) {
-        let zeta = zeta(&corner);
+    // What is beside or behind the light blocks none of what goes ahead.
+    let ahead =
+        casters.flat_map(|caster| caster.triangle.corners.map(|corner| zeta(&corner))).filter(|zeta| *zeta > 0.0);
+    for zeta in ahead {
         (nearest, farthest) = (nearest.min(zeta), farthest.max(zeta));
     }
     if let Some(receivers) = receivers.filter(|receivers| !receivers.is_empty()) {

@@ -175,12 +175,12 @@ fn the_six_maps_of_a_lamp_are_one_light() {
 /// With a size it is a sphere, whose disc every point of the room sees.
 #[test]
 fn a_lamp_with_a_size_is_as_soft_as_rays_to_its_sphere() {
-    const RADIUS: f64 = 0.3;
+    const RADIUS: f64 = 0.5;
     let boxes = room();
     let triangles = soup(&boxes);
     let geometry = truth(&triangles, boxes.len());
     let rays = AreaLight::new(RayCast::everywhere(&geometry, DVec3::ZERO.extend(1.0)), RADIUS);
-    let views = cube_views(DVec3::ZERO, 0.5, 40.0, 128).unwrap();
+    let views = cube_views(DVec3::ZERO, 0.1, 40.0, 128).unwrap();
     let recipe: Recipe = format!("auto,light={RADIUS},maps=32").parse().unwrap();
     let lamp = recipe.shadow_of(&views, &LightUse::default(), |_, _| triangles.iter().copied()).unwrap();
     assert_eq!(lamp.maps.len(), 6 * 32);

@@ -1,4 +1,4 @@
-use crate::hostile::value;
+use crate::hostile::{disown, value};
 use crate::{folder, spot, sun, views};
 use ::exr::prelude as exr;
 use glam::{IVec2, UVec2, Vec3};
@@ -51,10 +51,7 @@ fn again(map: &DeepMap) -> DeepMap {
 /// The same file without what only we write: from its opacities alone.
 fn foreign(map: &DeepMap) -> Vec<u8> {
     let mut bytes = encode_deep_map(map).expect("written");
-    for (attribute, kind) in [("comments", "string"), ("software", "string")] {
-        let at = value(&bytes, attribute, kind);
-        bytes[at] = b'U';
-    }
+    disown(&mut bytes);
     let list = value(&bytes, "channels", "chlist");
     for at in list..list + 200 {
         if bytes[at..].starts_with(b"passes.") {

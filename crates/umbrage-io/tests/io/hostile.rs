@@ -17,7 +17,7 @@ fn file() -> (Raw, Vec<u8>) {
 }
 
 /// Takes from a file all that says that it is one of ours: what is left is a file of another maker.
-fn disown(bytes: &mut [u8]) {
+pub(crate) fn disown(bytes: &mut [u8]) {
     let digest = bytes.windows(8).position(|part| part == b"\ndigest=").expect("the digest is there");
     for at in [value(bytes, "comments", "string"), digest + 1, value(bytes, "software", "string")] {
         bytes[at] = b'U';
