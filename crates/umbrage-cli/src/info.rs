@@ -10,17 +10,14 @@ use umbrage_depth::{DepthMap, Map, Storage};
 use umbrage_io::{depth_view, file_bytes, read_map, write_png_grey};
 use umbrage_plane::{Projection, TexelRect};
 
-/// Most texels of a map that is read: 16384 × 16384.
-const MOST_TEXELS: u64 = 1 << 28;
-
-/// Reads a map, if the file is of a size that may be read.
+/// Reads a map, if its file and its texels are as many as may be read.
 ///
 /// # Errors
 /// One line with the file.
 pub fn read(path: &Path, max_memory: Option<u64>) -> anyhow::Result<Map> {
-    let file_bytes = file_bytes(path)?;
-    Need { file_bytes, ..Need::default() }.check(max_memory).with_context(|| path.display().to_string())?;
-    Ok(read_map(path, MOST_TEXELS)?)
+    let need = Need { file_bytes: file_bytes(path)?, ..Need::default() };
+    need.check(max_memory).with_context(|| path.display().to_string())?;
+    Ok(read_map(path, need.texels_left(max_memory))?)
 }
 
 pub fn run(cli: &Cli, args: &InfoArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {

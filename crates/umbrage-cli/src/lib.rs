@@ -19,7 +19,7 @@ mod stage;
 
 use args::{Cli, Command};
 use clap::Parser;
-use shell::{Shell, Usage};
+use shell::{Output, Shell, Usage};
 use std::ffi::OsString;
 use std::io::{BufRead, ErrorKind, Write};
 
@@ -43,8 +43,13 @@ pub fn run(
             return 0;
         }
     };
-    let mut shell = Shell { input, out, err, quiet: cli.quiet, verbose: cli.verbose };
-    let done = with_threads(cli.threads.map(usize::from), &mut shell, |shell| command(&cli, shell));
+    let mut out = Output(out);
+    let mut shell = Shell { input, out: &mut out, err, quiet: cli.quiet, verbose: cli.verbose };
+    let done = with_threads(cli.threads.map(usize::from), &mut shell, |shell| {
+        command(&cli, shell)?;
+        // What waits in a buffer is not written yet.
+        Ok(shell.out.flush()?)
+    });
     match done {
         Ok(()) => 0,
         Err(error) if is_closed(&error) => 0,

@@ -40,6 +40,11 @@ impl Need {
             .saturating_add(self.texels.saturating_mul(PER_TEXEL))
     }
 
+    /// Texels of a map that may be held beside all this.
+    pub fn texels_left(&self, most: Option<u64>) -> u64 {
+        most.unwrap_or_else(default).saturating_sub(self.bytes()) / PER_TEXEL
+    }
+
     /// Nothing, if so much may be held.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! Where a command reads and writes, and how it says what is wrong.
 
-use std::io::{BufRead, Write};
+use std::io::{self, BufRead, Write};
 
 /// What a command reads and writes beside files.
 pub struct Shell<'a> {
@@ -22,6 +22,23 @@ impl Shell<'_> {
             let _ = writeln!(self.err, "{line}");
         }
     }
+}
+
+/// Where data go. A disk that is full is told apart from those of the files that a command writes.
+pub struct Output<'a>(pub &'a mut dyn Write);
+
+impl Write for Output<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.write(bytes).map_err(|error| named(&error))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush().map_err(|error| named(&error))
+    }
+}
+
+fn named(error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("standard output: {error}"))
 }
 
 /// What was asked for cannot be had: exit code 2, as for any other command line that makes no sense.

@@ -37,6 +37,7 @@ mod file;
 mod paged;
 mod picture;
 mod shadow_map;
+mod write_file;
 
 pub use any_map::{decode_map, read_map};
 pub use cube::opengl_cube_face;
@@ -48,7 +49,7 @@ pub use error::{Fault, IoError};
 pub use facet_map::{
     DEFAULT_FACET_BUDGET, decode_facet_map, encode_facet_map, read_facet_map, read_facet_map_within, write_facet_map,
 };
-pub use file::{create_folder, file_bytes, machine_memory, read_bytes, write_atomic, write_bytes};
+pub use file::{create_folder, file_bytes, machine_memory, read_bytes};
 pub use paged::{Paged, PagedHandle};
 pub use picture::{
     Codes, decode_png, encode_exr, encode_exr_values, encode_png, encode_png_grey, encode_png_values, linear_to_srgb8,
@@ -57,3 +58,4 @@ pub use picture::{
 pub use shadow_map::{
     DEFAULT_BUDGET, decode_shadow_map, encode_shadow_map, read_shadow_map, read_shadow_map_within, write_shadow_map,
 };
+pub use write_file::{write_atomic, write_bytes};

@@ -1,5 +1,6 @@
 use crate::error::{Fault, IoError};
-use crate::file::{read_bytes, write_bytes};
+use crate::file::read_bytes;
+use crate::write_file::write_bytes;
 use exr::prelude as exr;
 use glam::{UVec2, Vec3};
 use png::{BitDepth, ColorType};

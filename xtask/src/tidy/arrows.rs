@@ -85,7 +85,7 @@ const RULES: &[Rule] = &[
         package: "umbrage-gltf",
         arrows: &["umbrage-scene"],
         outside: &["base64", "glam", "image", "serde_json", "thiserror"],
-        tests: &["cap"],
+        tests: &[],
     },
     Rule {
         package: "umbrage-report",
@@ -102,6 +102,13 @@ const RULES: &[Rule] = &[
     },
     Rule { package: "umbrage-bench", arrows: EVERY, outside: &[], tests: &["criterion", "glam"] },
     Rule { package: "umbrage-examples", arrows: EVERY, outside: &[], tests: &["glam"] },
+    Rule {
+        package: "umbrage-fuzz",
+        arrows: &["umbrage-cli"],
+        outside: &["exr", "glam"],
+        tests: &["cap", "miniz_oxide", "serde_json"],
+    },
+    Rule { package: "umbrage-fuzz-targets", arrows: &["umbrage-fuzz"], outside: &["libfuzzer-sys"], tests: &[] },
     Rule { package: "xtask", arrows: &[], outside: &["anyhow", "proc-macro2", "toml"], tests: &[] },
     Rule { package: "umbrage-tests", arrows: EVERY, outside: &["fearless_simd", "glam", "rayon"], tests: PROPERTIES },
 ];

@@ -23,7 +23,8 @@ mod read;
 mod write;
 
 use crate::error::{Fault, IoError};
-use crate::file::{read_bytes, write_bytes};
+use crate::file::read_bytes;
+use crate::write_file::write_bytes;
 use std::path::Path;
 use umbrage_depth::DeepMap;
 

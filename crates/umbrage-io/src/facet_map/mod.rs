@@ -27,8 +27,9 @@
 mod text;
 
 use crate::error::{Fault, IoError};
-use crate::file::{read_bytes, write_bytes};
+use crate::file::read_bytes;
 use crate::shadow_map::{Preface, WordPart, Words, check_digest, depths, encode, in_part};
+use crate::write_file::write_bytes;
 use std::path::Path;
 use text::Description;
 use umbrage_depth::{DepthMap, FacetMap, FacetSource, FacetWordsError};

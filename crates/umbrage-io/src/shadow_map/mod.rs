@@ -20,7 +20,8 @@ mod words;
 mod write;
 
 use crate::error::{Fault, IoError};
-use crate::file::{read_bytes, write_bytes};
+use crate::file::read_bytes;
+use crate::write_file::write_bytes;
 use std::path::Path;
 use umbrage_depth::{DepthMap, Raw};
 

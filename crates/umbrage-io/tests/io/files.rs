@@ -50,13 +50,43 @@ fn a_name_that_a_folder_has_is_refused_and_nothing_stays_behind() {
     assert!(write_bytes(std::path::Path::new("/"), b"x").is_err());
 }
 
+/// What a killed run left behind is replaced; what may be somebody else's is not touched.
+#[cfg(unix)]
 #[test]
 fn files_of_interrupted_runs_are_no_obstacle() {
     let folder = folder("interrupted");
-    fs::write(folder.join(".a.exr.0.tmp"), b"torn").expect("a file");
-    write_bytes(&folder.join("a.exr"), b"whole").expect("written");
-    assert_eq!(fs::read(folder.join("a.exr")).expect("readable"), b"whole");
-    assert_eq!(fs::read(folder.join(".a.exr.0.tmp")).expect("not ours to take"), b"torn");
+    let (own, path) = (|number: u32| folder.join(format!(".a.exr.{number}.tmp")), folder.join("a.exr"));
+    fs::write(own(0), b"torn").expect("a file");
+    write_bytes(&path, b"whole").expect("written");
+    assert_eq!(fs::read(&path).expect("readable"), b"whole");
+    assert_eq!(names(&folder), ["a.exr"]);
+    fs::write(folder.join("other"), b"kept").expect("a file");
+    std::os::unix::fs::symlink(folder.join("other"), own(0)).expect("a link");
+    assert!(std::process::Command::new("mkfifo").arg(own(1)).status().expect("mkfifo runs").success());
+    fs::write(own(2), b"being written").expect("a file");
+    let writing = fs::File::open(own(2)).expect("readable");
+    writing.lock().expect("a lock");
+    write_bytes(&path, b"again").expect("written");
+    assert_eq!(fs::read(&path).expect("readable"), b"again");
+    assert_eq!(fs::read(folder.join("other")).expect("readable"), b"kept");
+    assert_eq!(fs::read(own(2)).expect("readable"), b"being written");
+    assert_eq!(names(&folder).len(), 5);
+}
+
+/// Two runs that write one file never tear it, nor trip over each other.
+#[test]
+fn one_file_may_be_written_by_several_at_once() {
+    let folder = folder("at_once");
+    let path = folder.join("a.exr");
+    std::thread::scope(|scope| {
+        for number in 0..4u8 {
+            let path = &path;
+            scope.spawn(move || (0..50).for_each(|_| write_bytes(path, &[number; 20_000]).expect("written")));
+        }
+    });
+    let bytes = fs::read(&path).expect("readable");
+    assert!(bytes.len() == 20_000 && bytes.iter().all(|byte| *byte == bytes[0]));
+    assert_eq!(names(&folder), ["a.exr"]);
 }
 
 #[cfg(unix)]

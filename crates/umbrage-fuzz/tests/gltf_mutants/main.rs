@@ -1,130 +1,33 @@
-//! Files of our own with something broken: each is read, or refused by one line, and none takes more memory than was allowed.
+//! Scenes of ours with something broken: each is read, or refused by one line, and none takes more memory than was allowed.
 
-#[path = "../gltf/build.rs"]
+#[path = "../../../umbrage-gltf/tests/gltf/build.rs"]
 #[expect(dead_code, reason = "other tests use the rest of it")]
 mod build;
 
-use build::Build;
+use build::{Build, container};
 use cap::Cap;
 use glam::Vec3;
 use serde_json::json;
-use umbrage_gltf::{ReadOptions, decode, encode};
-use umbrage_plane::mix32;
+use umbrage_fuzz::{Mutants, gltf, most_bytes};
+use umbrage_gltf::encode;
 use umbrage_scene::{Material, Mesh, Object, gallery};
 
 /// Counts what is allocated. It counts for the whole program, which is why all is one test.
 #[global_allocator]
 static ALLOCATOR: Cap<std::alloc::System> = Cap::new(std::alloc::System, usize::MAX);
 
-/// A stream of numbers.
-struct Dice(u32);
-
-impl Dice {
-    fn below(&mut self, most: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9);
-        mix32(self.0) as usize % most.max(1)
-    }
-}
-
-/// What takes the place of numbers in the JSON.
-const NUMBERS: [&str; 16] = [
-    "0",
-    "1",
-    "2",
-    "7",
-    "-1",
-    "0.5",
-    "255",
-    "65536",
-    "4294967295",
-    "4294967296",
-    "18446744073709551615",
-    "1e38",
-    "-1e300",
-    "1e-300",
-    "null",
-    "5126",
-];
-
-/// Where numbers stand in the bytes, each with where it ends.
-fn numbers(bytes: &[u8]) -> Vec<(usize, usize)> {
-    let part = |byte: &u8| byte.is_ascii_digit() || matches!(byte, b'-' | b'.' | b'e' | b'E' | b'+');
-    let mut found = Vec::new();
-    let mut at = 0;
-    while at < bytes.len() {
-        let end = at + bytes[at..].iter().take_while(|byte| part(byte)).count();
-        if end > at && matches!(bytes[at - 1], b':' | b',' | b'[') {
-            found.push((at, end));
-        }
-        at = end + 1;
-    }
-    found
-}
-
-/// One of many files near a file, and what was done to it.
-fn mutant(file: &[u8], json: usize, places: &[(usize, usize)], dice: &mut Dice) -> Vec<u8> {
-    let mut bytes = file.to_vec();
-    match dice.below(8) {
-        0 => bytes.truncate(dice.below(file.len())),
-        1 | 2 => {
-            for _ in 0..=dice.below(4) {
-                let at = dice.below(file.len());
-                bytes[at] ^= 1 << dice.below(8);
-            }
-        }
-        3 => {
-            for _ in 0..=dice.below(3) {
-                bytes[20 + dice.below(json)] = b"0123456789{}[],:\"-.e "[dice.below(21)];
-            }
-        }
-        _ => {
-            // From the back, so that the places before stay where they are.
-            let mut chosen: Vec<usize> = (0..=dice.below(3)).map(|_| dice.below(places.len())).collect();
-            chosen.sort_unstable();
-            chosen.dedup();
-            let before = bytes.len();
-            for place in chosen.into_iter().rev() {
-                let (from, to) = places[place];
-                bytes.splice(from..to, NUMBERS[dice.below(NUMBERS.len())].bytes());
-            }
-            let grown = |at: usize| u32::from_le_bytes([file[at], file[at + 1], file[at + 2], file[at + 3]]);
-            for at in [8, 12] {
-                let length = (grown(at) as usize + bytes.len() - before) as u32;
-                bytes[at..at + 4].copy_from_slice(&length.to_le_bytes());
-            }
-        }
-    }
-    bytes
-}
-
-fn survives(file: &[u8], count: u32, seed: u32) {
-    let json = u32::from_le_bytes([file[12], file[13], file[14], file[15]]) as usize;
-    let places = numbers(&file[..20 + json]);
-    let options = ReadOptions::default().with_max_bytes((64 << 20) + 8 * file.len() as u64).with_time(Some(0.4));
+fn survives(file: &[u8], count: usize, seed: u32) {
     let before = ALLOCATOR.allocated();
-    let whole = decode(file, None, "whole", &options).unwrap();
-    assert!(!whole.scene.objects.is_empty());
-    drop(whole);
-    let (mut read, mut dice) = (0, Dice(seed));
-    for _ in 0..count {
-        match decode(&mutant(file, json, &places, &mut dice), None, "mutant", &options) {
-            Ok(import) => {
-                read += 1;
-                for object in &import.scene.objects {
-                    let umbrage_scene::Shape::Mesh(mesh) = &object.shape else { panic!("no patches are read") };
-                    mesh.check().unwrap();
-                }
-                assert_eq!(import.lamps.len(), import.scene.lights.len());
-            }
-            Err(error) => {
-                let line = error.to_string();
-                assert!(!line.is_empty() && line.len() < 1000 && !line.contains('\n'), "{line:?}");
-            }
-        }
-    }
-    // A mutant's own bytes are not the reader's.
-    let most = ALLOCATOR.max_allocated() - before.min(ALLOCATOR.max_allocated()) - file.len();
-    assert!(most as u64 <= options.max_bytes, "{most} bytes are more than {}", options.max_bytes);
+    assert!(gltf(file), "the whole file");
+    // Most in the JSON alone, which is then as long as its header says.
+    let json = u32::from_le_bytes([file[12], file[13], file[14], file[15]]) as usize;
+    let (json, bin) = (&file[20..20 + json], &file[28 + json..]);
+    let of_json = Mutants::of(json, seed).take(count - count / 4).map(|json| container(&json, bin));
+    let of_all = Mutants::of(file, seed).take(count / 4);
+    let read = of_json.chain(of_all).filter(|mutant| gltf(mutant)).count();
+    // A mutant's own bytes, its JSON's among them, are not the reader's.
+    let most = (ALLOCATOR.max_allocated() - before).saturating_sub(2 * file.len());
+    assert!(most as u64 <= most_bytes(file), "{most} bytes are more than {}", most_bytes(file));
     assert!(read > count / 20 && read < count, "{read} of {count} were read");
 }
 

@@ -1,0 +1,31 @@
+//! What mutants and libFuzzer have found, kept.
+
+use std::ffi::OsString;
+use umbrage_fuzz::{ExrFile, flat, foreign};
+
+/// What a command says on stderr, and its code.
+fn refused(args: &[&str]) -> (u8, String) {
+    let words = std::iter::once("umbrage").chain(args.iter().copied()).map(OsString::from);
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let code = umbrage_cli::run(words, &mut std::io::empty(), &mut out, &mut err);
+    (code, String::from_utf8(err).expect("text"))
+}
+
+/// A file of a few hundred bytes whose map would take a gibibyte.
+#[test]
+fn a_map_s_texels_are_counted_against_max_memory() {
+    let mut file = ExrFile::parse(&foreign(&flat())).expect("sound");
+    file.parts[0].set("displayWindow", "box2i", &[0, 0, 16_383, 16_383].map(i32::to_le_bytes).concat());
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("texels.exr");
+    std::fs::write(&path, file.to_bytes(&[0])).expect("a file");
+    let path = path.to_str().expect("text");
+    for command in ["info", "lookup"] {
+        let (code, line) = refused(&[command, path, "--max-memory", "65MiB"]);
+        assert_eq!(code, 1);
+        assert!(
+            line.starts_with(&format!("error: {path}: displayWindow is 16384 x 16384: more than the allowed ")),
+            "{line}"
+        );
+        assert!(line.ends_with(" texels\n") && line.lines().count() == 1, "{line}");
+    }
+}
