@@ -1,4 +1,4 @@
-use crate::Mask;
+use crate::{Film, Mask};
 use glam::{Vec2, Vec3};
 use std::fmt;
 use umbrage_raster::Triangle;
@@ -48,12 +48,15 @@ pub struct Caster<'a> {
     /// The shading normals at its corners, in their order, of any length but 0; `None` for a flat triangle. Asked for by
     /// [`bake_by_normals`](crate::bake_by_normals) alone.
     pub normals: Option<[Vec3; 3]>,
-    /// Where its corners lie in a texture, in their order; all at (0, 0) if nobody says. Its mask alone learns of them.
+    /// Where its corners lie in a texture, in their order; all at (0, 0) if nobody says. Its mask and its film alone learn of them.
     pub uvs: [Vec2; 3],
     /// Who is asked, wherever the triangle would be seen, whether anything of it is there; `None` for a triangle without holes. Every
     /// kind of map asks, at each of its samples, and a [refined](crate::bake_refined) one at the slots of its links too. Where nothing
     /// is there the sample sees what is behind, as if the triangle had not been given. Holes between samples are not seen.
     pub mask: Option<Mask<'a>>,
+    /// What passes it, where that is not the same all over; it then stands for [`passes`](Self::passes), which is not asked for. As that,
+    /// it is asked for by [`bake_deep`](crate::bake_deep) alone, at each of its samples.
+    pub film: Option<Film<'a>>,
 }
 
 impl<'a> Caster<'a> {
@@ -87,17 +90,34 @@ impl<'a> Caster<'a> {
         Self { mask: Some(mask), ..self }
     }
 
+    /// The same, letting light through as the film says, place by place.
+    #[must_use]
+    pub fn with_film(self, film: Film<'a>) -> Self {
+        Self { film: Some(film), ..self }
+    }
+
+    /// Whether light may pass it.
+    #[must_use]
+    pub fn is_transparent(&self) -> bool {
+        self.film.is_some() || self.passing() != Vec3::ZERO
+    }
+
     /// What passes, as a map can store it.
     pub(crate) fn passing(&self) -> Vec3 {
-        // `max` first: it turns NaN into 0.
-        self.passes.max(Vec3::ZERO).min(Vec3::ONE)
+        within(self.passes)
     }
+}
+
+/// What passes, kept within 0..=1.
+pub(crate) fn within(passes: Vec3) -> Vec3 {
+    // `max` first: it turns NaN into 0.
+    passes.max(Vec3::ZERO).min(Vec3::ONE)
 }
 
 impl From<Triangle> for Caster<'_> {
     #[inline]
     fn from(triangle: Triangle) -> Self {
-        Self { triangle, passes: Vec3::ZERO, normals: None, uvs: [Vec2::ZERO; 3], mask: None }
+        Self { triangle, passes: Vec3::ZERO, normals: None, uvs: [Vec2::ZERO; 3], mask: None, film: None }
     }
 }
 
@@ -109,17 +129,21 @@ impl fmt::Debug for Caster<'_> {
             .field("normals", &self.normals)
             .field("uvs", &self.uvs)
             .field("masked", &self.mask.is_some())
+            .field("filmed", &self.film.is_some())
             .finish()
     }
 }
 
-/// Masks are the same when they are one and the same function at one place in memory, not when they say the same.
+/// Masks and films are the same when they are one and the same function at one place in memory, not when they say the same.
 impl PartialEq for Caster<'_> {
     fn eq(&self, other: &Self) -> bool {
-        let same = match (self.mask, other.mask) {
-            (Some(own), Some(other)) => std::ptr::eq(own, other),
-            (own, other) => own.is_none() && other.is_none(),
-        };
+        fn one<F: ?Sized>(own: Option<&F>, other: Option<&F>) -> bool {
+            match (own, other) {
+                (Some(own), Some(other)) => std::ptr::eq(own, other),
+                (own, other) => own.is_none() && other.is_none(),
+            }
+        }
+        let same = one(self.mask, other.mask) && one(self.film, other.film);
         let known = |caster: &Self| (caster.triangle, caster.passes, caster.normals, caster.uvs);
         same && known(self) == known(other)
     }

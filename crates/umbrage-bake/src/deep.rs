@@ -1,6 +1,6 @@
 use crate::Caster;
 use crate::masks::Masks;
-use glam::{DVec3, UVec2, Vec3};
+use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
 use rayon::prelude::*;
 use std::cmp::Ordering;
 use umbrage_depth::{DeepMap, MapError, Step, compress_steps};
@@ -66,7 +66,8 @@ struct Fragment {
     cell: u16,
     key: f32,
     object: u32,
-    triangle: u32,
+    /// What passes it: the index of its triangle, or beyond all of them that of what a film lets pass here.
+    light: u32,
 }
 
 /// The triangles of one moment, and what passes each of them.
@@ -86,7 +87,7 @@ pub struct BakedDeep {
 }
 
 /// Pass 1 of deep maps: a texel's transmittance is the mean over its samples and over the moments of an exposure of what all surfaces
-/// before a depth let through together ([`Caster::passes`]; B06-11, EXT-2, EXT-3).
+/// before a depth let through together ([`Caster::passes`], [`Caster::film`]; B06-11, EXT-2, EXT-3).
 ///
 /// `moments` are the triangles at evenly spread times, one of them for what is at rest; none gives an empty map. What is nearer than the near plane stands at it (C-10). The result
 /// does not depend on the number of threads. Maps too large for the samples, which are one grid of at most 32,768 a side, get as many as fit.
@@ -132,8 +133,10 @@ impl<'a> Moment<'a> {
         Self { bins, passes, masks }
     }
 
-    fn passes(&self, fragment: &Fragment) -> DVec3 {
-        self.passes[fragment.triangle as usize].as_dvec3()
+    /// What passes a fragment, where films of the tile let `filmed` pass.
+    fn passes(&self, filmed: &[Vec3], fragment: &Fragment) -> DVec3 {
+        let light = fragment.light as usize;
+        self.passes.get(light).unwrap_or_else(|| &filmed[light - self.passes.len()]).as_dvec3()
     }
 }
 
@@ -151,12 +154,17 @@ impl Gather<'_> {
         let origin = (tile * BIN).as_ivec2();
         let mut falls: Vec<Vec<(f32, DVec3)>> = Vec::new();
         for moment in self.moments {
-            let mut met: Vec<Fragment> = Vec::new();
+            let (mut met, mut filmed): (Vec<Fragment>, Vec<Vec3>) = (Vec::new(), Vec::new());
             moment.masks.tile(&moment.bins, tile, |facet, coverage| {
+                let film = moment.masks.film(facet);
                 each_fragment(self.fine, origin, facet, coverage, |cell, _, key| {
                     if !key.is_nan() {
-                        let Facet { object, triangle, .. } = *facet;
-                        met.push(Fragment { cell: cell as u16, key, object, triangle });
+                        let Facet { object, triangle: mut light, .. } = *facet;
+                        if let Some(film) = &film {
+                            light = (moment.passes.len() + filmed.len()) as u32;
+                            filmed.push(film(self.at(origin, cell as u32)));
+                        }
+                        met.push(Fragment { cell: cell as u16, key, object, light });
                     }
                 });
             });
@@ -165,30 +173,34 @@ impl Gather<'_> {
             }
             // By sample, from the light outward; ids, then what passes, make one order of equal keys.
             met.sort_unstable_by(|a, b| {
-                let by_light = || compare(moment.passes(a), moment.passes(b));
+                let by_light = || compare(moment.passes(&filmed, a), moment.passes(&filmed, b));
                 let by_key = a.cell.cmp(&b.cell).then(a.key.total_cmp(&b.key));
                 by_key.then(a.object.cmp(&b.object)).then_with(by_light)
             });
             falls.resize((side * side) as usize, Vec::new());
             for sample in met.chunk_by(|a, b| a.cell == b.cell) {
-                let cell = UVec2::new(u32::from(sample[0].cell) % BIN, u32::from(sample[0].cell) / BIN);
-                let texel = cell / self.axis;
-                let at = self.fine.sampling().position(origin + cell.as_ivec2());
-                self.add(moment, sample, at, &mut falls[(texel.y * side + texel.x) as usize]);
+                let cell = u32::from(sample[0].cell);
+                let texel = UVec2::new(cell % BIN, cell / BIN) / self.axis;
+                let surfaces = sample.iter().map(|met| (met.key, moment.passes(&filmed, met)));
+                self.add(surfaces, self.at(origin, cell), &mut falls[(texel.y * side + texel.x) as usize]);
             }
         }
         let samples = f64::from(self.axis * self.axis) * self.moments.len() as f64;
         falls.into_iter().map(|falls| compress_steps(&steps(falls, samples), self.epsilon)).collect()
     }
 
-    /// What the light loses at each surface of one sample.
-    fn add(&self, moment: &Moment<'_>, sample: &[Fragment], at: glam::DVec2, falls: &mut Vec<(f32, DVec3)>) {
+    /// Where a sample of the tile at `origin` is, in samples.
+    fn at(&self, origin: IVec2, cell: u32) -> DVec2 {
+        self.fine.sampling().position(origin + UVec2::new(cell % BIN, cell / BIN).as_ivec2())
+    }
+
+    /// What the light loses at each surface of one sample, of which the keys are known and what passes them.
+    fn add(&self, surfaces: impl Iterator<Item = (f32, DVec3)>, at: DVec2, falls: &mut Vec<(f32, DVec3)>) {
         let decode = self.fine.decode();
         let nearest = decode.depth(self.fine.key(self.fine.near()) as f32, at);
         let mut light = DVec3::ONE;
-        for fragment in sample {
-            let passes = moment.passes(fragment);
-            let depth = decode.depth(fragment.key, at).max(nearest);
+        for (key, passes) in surfaces {
+            let depth = decode.depth(key, at).max(nearest);
             // Depths from 1e30 on are none (C-5).
             if light == DVec3::ZERO || depth >= 1e30 {
                 break;

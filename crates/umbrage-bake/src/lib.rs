@@ -57,7 +57,7 @@ mod tags;
 pub use caster::Caster;
 pub use deep::{BakedDeep, Deep, bake_deep};
 pub use facets::{BakedFacets, Refinement, bake_facets, bake_refined};
-pub use mask::{Mask, MaskPlace};
+pub use mask::{Film, Mask, MaskPlace};
 pub use masks::Masks;
 pub use moments::mix_moments;
 pub use normals::bake_by_normals;

@@ -1,6 +1,6 @@
-//! Casters with holes: who is asked whether anything is there, and of which place.
+//! Casters with holes, and those that let light pass here more than there: who is asked, and of which place.
 
-use glam::{DVec2, DVec3, Vec2};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// Whether anything of a caster is at a place of it: an alpha test, where true is opaque.
 ///
@@ -8,7 +8,13 @@ use glam::{DVec2, DVec3, Vec2};
 /// same place, or the map depends on the order. A panic of it is one of the bake.
 pub type Mask<'a> = &'a (dyn Fn(&MaskPlace) -> bool + Sync);
 
-/// A place of a triangle, of which a [`Mask`] is asked.
+/// What passes of the light at a place of a caster, linear RGB: 0 is opaque. What lies outside 0..=1 counts as the nearer end of it,
+/// NaN as 0.
+///
+/// It is asked as a [`Mask`] is, and must as surely say the same of the same place.
+pub type Film<'a> = &'a (dyn Fn(&MaskPlace) -> Vec3 + Sync);
+
+/// A place of a triangle, of which a [`Mask`] or a [`Film`] is asked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MaskPlace {

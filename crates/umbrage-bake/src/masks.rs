@@ -1,9 +1,10 @@
-//! The masks of a bake, and where they are asked.
+//! The masks and films of a bake, and where they are asked.
 
+use crate::caster::within;
 use crate::mask::mix;
 use crate::rays::{places, ray};
-use crate::{Caster, Mask, MaskPlace};
-use glam::{DVec2, DVec3, IVec2, UVec2, Vec2};
+use crate::{Caster, Film, Mask, MaskPlace};
+use glam::{DVec2, DVec3, IVec2, UVec2, Vec2, Vec3};
 use std::fmt;
 use umbrage_plane::{Facet, View};
 use umbrage_raster::{BIN, Bins, Coverage, Triangle};
@@ -34,7 +35,7 @@ pub struct Masks<'a> {
     /// Its texel positions are what masks are asked at.
     view: View,
     masked: Vec<Masked<'a>>,
-    /// From triangles to `masked`, as far as the last that has a mask; [`UNMASKED`] for those that have none.
+    /// From triangles to `masked`, as far as the last that has a mask or a film; [`UNMASKED`] for those that have neither.
     index: Vec<u32>,
     given: usize,
 }
@@ -50,24 +51,37 @@ impl<'a> Masks<'a> {
     /// Takes one more caster, in the order of the bins, and gives its triangle.
     #[inline(always)]
     pub fn note(&mut self, caster: Caster<'a>) -> Triangle {
-        if let Some(mask) = caster.mask {
-            self.add(mask, &caster);
+        if caster.mask.is_some() || caster.film.is_some() {
+            self.add(&caster);
         }
         self.given += 1;
         caster.triangle
     }
 
     #[cold]
-    fn add(&mut self, mask: Mask<'a>, caster: &Caster<'a>) {
+    fn add(&mut self, caster: &Caster<'a>) {
         self.index.resize(self.given, UNMASKED);
         self.index.push(self.masked.len() as u32);
-        self.masked.push(Masked::new(&self.view, mask, caster));
+        self.masked.push(Masked::new(&self.view, caster));
     }
 
     /// The mask of a facet that has one.
     #[inline(always)]
     pub(crate) fn of(&self, facet: &Facet) -> Option<&Masked<'a>> {
+        self.known(facet).filter(|known| known.mask.is_some())
+    }
+
+    /// What is known of a facet with a mask or a film.
+    #[inline(always)]
+    fn known(&self, facet: &Facet) -> Option<&Masked<'a>> {
         self.masked.get(*self.index.get(facet.triangle as usize)? as usize)
+    }
+
+    /// What the film of a facet lets pass, as a function of the place of the map, in texels; `None` for a facet without a film.
+    pub(crate) fn film(&self, facet: &Facet) -> Option<impl Fn(DVec2) -> Vec3 + use<'_, 'a>> {
+        let known = self.known(facet)?;
+        let (film, facet) = (known.film?, *facet);
+        Some(move |at| within(film(&known.place(&self.view, &facet, at))))
     }
 
     /// [`Bins::tile`] of bins of the same view, without the samples where masks say that nothing is there.
@@ -108,9 +122,7 @@ impl<'a> Masks<'a> {
 
     /// Whether anything of a facet is at a place of the map, in texels.
     pub(crate) fn is_there(&self, masked: &Masked<'_>, facet: &Facet, at: DVec2) -> bool {
-        let Facet { triangle, object, .. } = *facet;
-        let weights = masked.weights(ray(&self.view, at));
-        (masked.mask)(&MaskPlace { triangle, object, weights, uv: mix(masked.uvs, weights) })
+        masked.mask.is_none_or(|mask| mask(&masked.place(&self.view, facet, at)))
     }
 }
 
@@ -120,9 +132,10 @@ impl fmt::Debug for Masks<'_> {
     }
 }
 
-/// A mask, and what gives the weights of its triangle's corners.
+/// A mask or a film or both, and what gives the weights of their triangle's corners.
 pub(crate) struct Masked<'a> {
-    mask: Mask<'a>,
+    mask: Option<Mask<'a>>,
+    film: Option<Film<'a>>,
     uvs: [Vec2; 3],
     /// The weights of the second and the third corner at a ray are its products with these, over its product with `whole`.
     second: DVec3,
@@ -131,7 +144,7 @@ pub(crate) struct Masked<'a> {
 }
 
 impl<'a> Masked<'a> {
-    fn new(view: &View, mask: Mask<'a>, &Caster { triangle, uvs, .. }: &Caster<'a>) -> Self {
+    fn new(view: &View, &Caster { triangle, uvs, mask, film, .. }: &Caster<'a>) -> Self {
         let eye = triangle.corners.map(|corner| view.world_to_eye().transform_point3(corner));
         // Differences are taken before the turn: those of a scene far from the origin lose nothing in it.
         let edge = |corner: usize| {
@@ -140,7 +153,13 @@ impl<'a> Masked<'a> {
         };
         let (first, b, c) = (places(view, eye)[0], edge(1), edge(2));
         // Cramer's rule: the ray r meets first + s·b + t·c where s = r·(first × c) / r·(c × b) and t = r·(b × first) / r·(c × b).
-        Self { mask, uvs, second: first.cross(c), third: b.cross(first), whole: c.cross(b) }
+        Self { mask, film, uvs, second: first.cross(c), third: b.cross(first), whole: c.cross(b) }
+    }
+
+    /// The place of its facet that is seen at a place of the map, in texels.
+    fn place(&self, view: &View, &Facet { triangle, object, .. }: &Facet, at: DVec2) -> MaskPlace {
+        let weights = self.weights(ray(view, at));
+        MaskPlace { triangle, object, weights, uv: mix(self.uvs, weights) }
     }
 
     fn weights(&self, ray: DVec3) -> DVec3 {

@@ -53,12 +53,12 @@ pub fn run(cli: &Cli, args: &InfoArgs, shell: &mut Shell<'_>) -> anyhow::Result<
         });
         writeln!(shell.out, "{facts}")?;
     } else {
-        let place = if view.is_perspective() { "light at" } else { "light toward" };
+        let place = if view.is_perspective() { "at" } else { "toward" };
         let eye = eye.truncate();
         writeln!(shell.out, "size      {} x {} texels", size.x, size.y)?;
         writeln!(shell.out, "keeps     {kept}")?;
         writeln!(shell.out, "view      {projection}, from {} to {}", view.near(), view.far())?;
-        writeln!(shell.out, "{place:<10}{} {} {}", eye.x, eye.y, eye.z)?;
+        writeln!(shell.out, "light     {place} {} {} {}", eye.x, eye.y, eye.z)?;
         writeln!(shell.out, "looking   {} {} {}", ahead.x, ahead.y, ahead.z)?;
         match depths().count() {
             0 => writeln!(shell.out, "depths    none: the map is empty")?,

@@ -4,7 +4,7 @@ use crate::stage::{Lamp, Stage};
 use anyhow::Context;
 use umbrage_depth::Storage;
 use umbrage_recipe::{LightShadow, LightUse, Recipe};
-use umbrage_render::{Soup, alpha_test, receivers};
+use umbrage_render::{Soup, alpha_blend, alpha_test, receivers};
 
 /// All of pass 1 of a light, and the algorithm over it.
 ///
@@ -17,7 +17,7 @@ pub fn shadow_of(stage: &Stage, lamp: &Lamp, recipe: &Recipe) -> anyhow::Result<
     let with = LightUse { storage: Storage::Tiled, receivers: seen.as_deref(), moments: 1 };
     // A spot too wide for one map is split by the recipe, which then knows its cone.
     let views = if light.view.cone().is_some() { std::slice::from_ref(&light.view) } else { &lamp.views };
-    let test = alpha_test(scene);
-    let shadow = recipe.shadow_of(views, &with, |view, _| Soup::casters(scene, view).into_casting(&test));
+    let (test, blend) = (alpha_test(scene), alpha_blend(scene));
+    let shadow = recipe.shadow_of(views, &with, |view, _| Soup::casters(scene, view).into_casting(&test, &blend));
     shadow.with_context(|| format!("light {:?}", light.name))
 }

@@ -63,9 +63,13 @@ impl Stage {
         let texels = maps * u64::from(args.map_size).pow(2);
         Need { file_bytes: 0, picture, samples, triangles: triangles.sum(), texels }.check(max_memory)?;
         if shell.verbose {
-            let outside = lamps.iter().flat_map(|lamp| scene.casters_outside(&scene.lights[lamp.light].view));
-            for object in outside {
-                shell.note(&format!("note: {:?} reaches beyond a light's map", scene.objects[object as usize].name));
+            // Several views see all around their light.
+            for lamp in lamps.iter().filter(|lamp| lamp.views.len() == 1) {
+                let light = &scene.lights[lamp.light];
+                for object in scene.casters_outside(&light.view) {
+                    let object = &scene.objects[object as usize].name;
+                    shell.note(&format!("note: {object:?} reaches beyond the map of the light {:?}", light.name));
+                }
             }
         }
         Ok(Self { scene, lamps, casting, recipe })

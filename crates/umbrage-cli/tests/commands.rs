@@ -157,6 +157,7 @@ fn maps_are_baked_described_and_looked_up() {
         let told = good(&["info", text(&map)]).out;
         assert!(told.contains("size      96 x 96 texels\n"), "{told}");
         assert!(told.contains(&format!("keeps     {keeps}")), "{rule}: {told}");
+        assert!(told.contains("\nlight     "), "{rule}: {told}");
         // Behind the box it is dark, beside its shadow lit.
         let asked = run_with("60 0 0 0 1 0\n150,0,150,0,1,0\n", &["lookup", text(&map)]);
         assert_eq!((asked.code, asked.err.trim_end()), (0, recipe), "{rule}");
@@ -449,4 +450,25 @@ fn the_readme_shows_what_the_command_draws() {
     let (drawn, kept) =
         (std::fs::read(&out).expect("a file"), std::fs::read(fixture("readme/suzi.png")).expect("a file"));
     assert!(drawn == kept, "fixtures/readme/suzi.png is not what is drawn; {} is", out.display());
+}
+
+#[test]
+fn what_reaches_beyond_a_map_is_named_with_its_light() {
+    let folder = folder("beyond");
+    // A large floor, under a spot that sees part of it and a lamp whose maps see all around.
+    let scene = r#"{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1, 2]}],
+        "extensionsUsed": ["KHR_lights_punctual"],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"name": "spot", "type": "spot", "spot": {}}, {"name": "bulb", "type": "point"}]}},
+        "nodes": [{"name": "floor", "mesh": 0},
+            {"rotation": [-0.70710678, 0, 0, 0.70710678], "translation": [0, 9, 0], "extensions": {"KHR_lights_punctual": {"light": 0}}},
+            {"translation": [0, 9, 0], "extensions": {"KHR_lights_punctual": {"light": 1}}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AABIwgAAAAAAAEjCAAAAAAAAAAAAAEhCAABIQgAAAAAAAEjC"}]}"#;
+    let path = folder.join("floor.gltf");
+    std::fs::write(&path, scene).expect("a file");
+    let ran = good(&["bake", text(&path), "--map-size", "16", "-v", "-o", text(&folder.join("maps"))]);
+    let said: Vec<&str> = ran.err.lines().filter(|line| line.contains("reaches beyond")).collect();
+    assert_eq!(said, ["note: \"floor\" reaches beyond the map of the light \"spot\""]);
 }

@@ -22,9 +22,10 @@
 //!   normalised or quantised (`KHR_mesh_quantization`); skins and morph targets. Each primitive of each place is an object. It is
 //!   solid when the mesh is closed by position, over all its primitives and before the transform. Every triangle casts from both sides.
 //! * **Animations**, at one moment: linear, step and cubic. Without a moment all stands as the file has it.
-//! * **Materials**: the base colour as a matt surface, by its factor and its texture: PNG or JPEG, with `KHR_texture_transform`. `MASK` cuts holes where the
-//!   texture's alpha says so. `BLEND` lets 1 − alpha of the light pass, by the factor alone. An image that cannot be read is noted, unless it
-//!   cuts holes: then the file is refused.
+//! * **Materials**: the base colour as a matt surface, by its factor, the colours of vertices (`COLOR_0`, without alpha), and its texture: PNG or JPEG,
+//!   with `KHR_texture_transform`. `MASK` cuts holes where the
+//!   texture's alpha says so. `BLEND` lets 1 − alpha of the light pass, by factor and texture, and is a hole where the texture's
+//!   alpha is 0. An image that cannot be read is noted, unless it cuts holes: then the file is refused.
 //! * **Cameras** of both kinds. They and lights look along the −z axis of their node, whatever mirrors or shears it.
 //! * **Lights** of `KHR_lights_punctual`. A spot's edge is that of [`Cone`](umbrage_scene::tree::Cone), smooth between its two angles.
 //!
@@ -65,6 +66,7 @@ mod accessor;
 mod animation;
 mod budget;
 mod camera;
+mod colours;
 mod container;
 mod encode;
 mod error;

@@ -16,20 +16,37 @@ pub(crate) struct Surface {
     pub laid: Option<Laid>,
     /// The alpha of the texture below which nothing is there.
     pub cutoff: Option<f32>,
-    /// The fraction of the light that passes one surface, per channel.
+    /// The fraction of the light that passes one surface, per channel; where it blends that at an alpha of 1.
     pub passes: Vec3,
-    /// Whether nothing of it is there: a mask whose alpha is below its cutoff everywhere.
+    /// Whether the texture's alpha says how much light passes.
+    pub blends: bool,
+    /// Whether alpha makes a difference to the surface.
+    pub has_alpha: bool,
+    /// Whether nothing of it is there: a mask whose alpha is below its cutoff everywhere, or what blends with an alpha of 0.
     pub absent: bool,
 }
 
-const PLAIN: Surface =
-    Surface { material: Material::matt(Vec3::ONE), laid: None, cutoff: None, passes: Vec3::ZERO, absent: false };
+const PLAIN: Surface = Surface {
+    material: Material::matt(Vec3::ONE),
+    laid: None,
+    cutoff: None,
+    passes: Vec3::ZERO,
+    blends: false,
+    has_alpha: false,
+    absent: false,
+};
 
 /// The surface of a primitive, by its material. The base colour is what a matt surface reflects, of metals too.
 pub(crate) fn surface(file: &File, primitive: &At) -> Result<Surface, GltfError> {
     let Some(number) = primitive.index("material", file.count("materials")?, "materials")? else { return Ok(PLAIN) };
     let at = file.member("materials", number)?;
-    let (mut colour, mut laid, masked) = ([1.0; 4], None, at.text("alphaMode")? == Some("MASK"));
+    let (masked, blended) = match at.text("alphaMode")? {
+        None | Some("OPAQUE") => (false, false),
+        Some("MASK") => (true, false),
+        Some("BLEND") => (false, true),
+        Some(_) => return Err(at.wrong("alphaMode", "OPAQUE, MASK or BLEND")),
+    };
+    let (mut colour, mut laid) = ([1.0; 4], None);
     if let Some(base) = at.get("pbrMetallicRoughness") {
         colour = base.numbers("baseColorFactor")?.unwrap_or(colour);
         if !colour.iter().all(|channel| (0.0..=1.0).contains(channel)) {
@@ -44,7 +61,8 @@ pub(crate) fn surface(file: &File, primitive: &At) -> Result<Surface, GltfError>
                 Ok(found) => laid = Some(found),
                 // A shadow is right without its caster's colour, but not without its holes.
                 Err(fault) if !masked && !matches!(fault, GltfError::Budget { .. }) => {
-                    file.note(Level::Always, format!("{} is not shown: {fault}", texture.path));
+                    let alpha = if blended { ", and its alpha counts as 1" } else { "" };
+                    file.note(Level::Always, format!("{} is not shown{alpha}: {fault}", texture.path));
                 }
                 Err(fault) => return Err(fault),
             }
@@ -59,13 +77,15 @@ pub(crate) fn surface(file: &File, primitive: &At) -> Result<Surface, GltfError>
     let material = Material::matt(Vec3::new(red, green, blue));
     let cutoff = at.number_in("alphaCutoff", 0.5, |cutoff| cutoff >= 0.0, "a number from 0")?;
     let below = f64::from(alpha) < f64::from(cutoff as f32);
-    let (passes, absent) = match at.text("alphaMode")? {
-        None | Some("OPAQUE") => (0.0, false),
-        Some("MASK") => (0.0, below && laid.is_none()),
-        Some("BLEND") => (1.0 - alpha, false),
-        Some(_) => return Err(at.wrong("alphaMode", "OPAQUE, MASK or BLEND")),
+    let passes = Vec3::splat(if blended { 1.0 - alpha } else { 0.0 });
+    let absent = (masked && below && laid.is_none()) || (blended && alpha == 0.0);
+    let least = laid.as_ref().filter(|_| blended).map_or(1.0, |laid: &Laid| laid.texture.least_alpha());
+    let cutoff = match &laid {
+        // The factor's alpha is divided out of the comparison.
+        Some(_) if masked => Some(cutoff as f32 / alpha),
+        // Nothing is there where all light passes.
+        Some(_) if blended && least == 0.0 => Some(f32::MIN_POSITIVE),
+        _ => None,
     };
-    // The factor's alpha is divided out of the comparison.
-    let cutoff = (masked && laid.is_some()).then(|| cutoff as f32 / alpha);
-    Ok(Surface { material, laid, cutoff, passes: Vec3::splat(passes), absent })
+    Ok(Surface { material, laid, cutoff, passes, blends: least < 1.0, has_alpha: masked || blended, absent })
 }

@@ -62,12 +62,14 @@ pub(crate) fn placed(
             corners.swap(1, 2);
         }
     }
-    let uvs = &primitive.uvs;
+    let (uvs, colours) = (&primitive.uvs, &primitive.colours);
     Ok(if primitive.normals.is_some() {
-        Mesh { uvs: uvs.clone(), ..smooth(&positions, normals, triangles) }
+        Mesh { uvs: uvs.clone(), colours: colours.clone(), ..smooth(&positions, normals, triangles) }
     } else {
-        let corners = triangles.iter().flatten().filter_map(|&vertex| uvs.get(vertex as usize).copied());
-        Mesh { uvs: corners.collect(), ..flat(&positions, &triangles) }
+        let corner = |vertex: &u32| *vertex as usize;
+        let uvs = triangles.iter().flatten().filter_map(|vertex| uvs.get(corner(vertex)).copied()).collect();
+        let colours = triangles.iter().flatten().filter_map(|vertex| colours.get(corner(vertex)).copied()).collect();
+        Mesh { uvs, colours, ..flat(&positions, &triangles) }
     })
 }
 
@@ -130,7 +132,8 @@ fn smooth(positions: &[DVec3], mut normals: Vec<Vec3>, triangles: Vec<[u32; 3]>)
         }
     }
     let surfaces = surfaces(positions.len(), &triangles);
-    Mesh { positions: positions.iter().map(|at| at.as_vec3()).collect(), normals, triangles, surfaces, uvs: Vec::new() }
+    let positions = positions.iter().map(|at| at.as_vec3()).collect();
+    Mesh { positions, normals, triangles, surfaces, ..Mesh::default() }
 }
 
 /// Every triangle a surface of its own.
@@ -143,7 +146,7 @@ fn flat(positions: &[DVec3], triangles: &[[u32; 3]]) -> Mesh {
         normals: normals.collect(),
         triangles: (0..count).map(|triangle| [0, 1, 2].map(|corner| triangle * 3 + corner)).collect(),
         surfaces: (0..count).collect(),
-        uvs: Vec::new(),
+        ..Mesh::default()
     }
 }
 

@@ -3,11 +3,12 @@
 use crate::GltfError;
 use crate::accessor::{Accessor, Component, Wanted};
 use crate::budget::{TRIANGLE, VERTEX};
+use crate::colours::colours;
 use crate::file::File;
 use crate::json::At;
 use crate::material::{Surface, surface};
 use crate::note::Level;
-use glam::{DVec3, Vec2};
+use glam::{DVec3, Vec2, Vec3};
 use std::sync::Arc;
 use umbrage_scene::Cover;
 
@@ -20,6 +21,8 @@ pub(crate) struct Primitive<'a> {
     pub positions: Vec<DVec3>,
     /// Where each vertex lies in the texture; empty without one.
     pub uvs: Vec<Vec2>,
+    /// What multiplies each vertex's colour, linear RGB; empty without COLOR_0.
+    pub colours: Vec<Vec3>,
     /// Normals by place in the accessor; without them triangles are flat.
     pub normals: Option<Accessor<'a>>,
     pub triangles: Vec<[u32; 3]>,
@@ -69,7 +72,7 @@ impl<'a> Primitive<'a> {
         }
         let surface = surface(file, at)?;
         if surface.absent {
-            file.note(Level::Verbose, format!("{} is left out: its alpha is below its cutoff", at.path));
+            file.note(Level::Verbose, format!("{} is left out: its alpha is 0, or below its cutoff", at.path));
             return Ok(None);
         }
         let Vertices { ids, positions, triangles } = vertices(file, at, &found, order)?;
@@ -97,14 +100,15 @@ impl<'a> Primitive<'a> {
         let normals = attribute(&attributes, "NORMAL", &NORMALS)?;
         let uvs = surface.laid.as_ref().map(|laid| laid.places(file, &attributes, &ids, found.count)).transpose()?;
         let uvs = uvs.unwrap_or_default();
+        let colours = colours(file, &attributes, &ids, found.count, surface.has_alpha)?;
         let path = at.path.clone();
-        Ok(Some(Self { path, ids, positions, uvs, normals, triangles, targets, joints, surface }))
+        Ok(Some(Self { path, ids, positions, uvs, colours, normals, triangles, targets, joints, surface }))
     }
 
-    /// Its texture, with the holes that it makes.
+    /// Its texture, with the holes that it makes and what its alpha lets pass.
     pub fn cover(&self) -> Cover {
         let texture = self.surface.laid.as_ref().map(|laid| Arc::clone(&laid.texture));
-        Cover { texture, cutoff: self.surface.cutoff }
+        Cover { texture, cutoff: self.surface.cutoff, blends: self.surface.blends }
     }
 
     /// The corners of the box around all vertices.

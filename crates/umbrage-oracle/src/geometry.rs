@@ -1,6 +1,6 @@
 use crate::ray::Ray;
 use crate::triangle::Triangle;
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::builder::build_bvh2;
@@ -23,9 +23,10 @@ pub struct Face {
 pub struct Body {
     /// Drawn into depth maps. Truth asks for it only under [`Truth::casters_only`](crate::Truth::casters_only).
     pub casts: bool,
-    /// The closed boundary of a solid; false for an open sheet, and where it has holes.
+    /// The closed boundary of a solid; false for an open sheet, and where its cover has holes or blends.
     pub solid: bool,
-    /// Share of the light that passes one surface of it, linear RGB in 0..=1; 0, the default, is opaque (EXT-3).
+    /// Share of the light that passes one surface of it, linear RGB in 0..=1; 0, the default, is opaque (EXT-3). Where its cover blends
+    /// it is what passes at an alpha of 1.
     pub passes: Vec3,
 }
 
@@ -59,15 +60,14 @@ pub struct Geometry {
     faces: Vec<Face>,
     triangles: Vec<Triangle>,
     bodies: Vec<Body>,
-    /// What is known of holes; `None` where nothing has any.
-    holes: Option<Holes>,
+    /// What is known of covers; `None` where nothing has holes or blends.
+    covers: Option<Covers>,
     tree: Bvh2,
 }
 
-/// Where nothing is of faces that have holes.
-struct Holes {
-    /// By object.
-    covers: Vec<Cover>,
+/// Where nothing is of faces that have holes, and what passes those that blend.
+struct Covers {
+    of: Vec<Cover>,
     /// Places in the texture of each face's corners.
     uvs: Vec<[Vec2; 3]>,
 }
@@ -119,7 +119,8 @@ impl Geometry {
     pub(crate) fn about_origin(scene: &Scene, view: &View, keep: impl Fn(&Object) -> bool) -> Self {
         let (mut faces, mut uvs) = (Vec::new(), Vec::new());
         let kept = |(_, object): &(usize, &Object)| keep(object);
-        let holes = scene.objects.iter().enumerate().filter(kept).any(|(_, object)| object.cover.has_holes());
+        let asked = |cover: &Cover| cover.has_holes() || cover.blends;
+        let covered = scene.objects.iter().enumerate().filter(kept).any(|(_, object)| asked(&object.cover));
         for (id, object) in scene.objects.iter().enumerate().filter(kept) {
             let mesh = object.shape.mesh_for(view);
             let face = |local: usize| Face { corners: mesh.corners(local), object: id as u32 };
@@ -127,16 +128,16 @@ impl Geometry {
                 (0..mesh.triangles.len()).map(|local| (local, face(local))).filter(|(_, face)| usable(face))
             {
                 faces.push(face);
-                if holes {
+                if covered {
                     uvs.push(mesh.corner_uvs(local));
                 }
             }
         }
         let body = |object: &Object| Body { casts: object.casts, solid: object.is_solid(), passes: object.passes };
         let bodies = scene.objects.iter().map(body).collect();
-        let holes =
-            holes.then(|| Holes { covers: scene.objects.iter().map(|object| object.cover.clone()).collect(), uvs });
-        Self { holes, ..Self::from_faces(faces, bodies) }
+        let of = || scene.objects.iter().map(|object| object.cover.clone()).collect();
+        let covers = covered.then(|| Covers { of: of(), uvs });
+        Self { covers, ..Self::from_faces(faces, bodies) }
     }
 
     /// From triangles of world space and what their objects are. Objects without a body count as sheets that do not cast; triangles
@@ -150,7 +151,7 @@ impl Geometry {
             build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Duration::default())
         };
         let triangles = faces.iter().map(|face| Triangle::new(face.corners)).collect();
-        Self { origin: DVec3::ZERO, faces, triangles, bodies, holes: None, tree }
+        Self { origin: DVec3::ZERO, faces, triangles, bodies, covers: None, tree }
     }
 
     /// The world-space point that the faces are relative to: the scene's.
@@ -170,7 +171,8 @@ impl Geometry {
 
     /// True when no object lets light through: rays then end at the first surface.
     pub fn is_opaque(&self) -> bool {
-        self.bodies.iter().all(|body| body.passes == Vec3::ZERO)
+        let blends = self.covers.iter().flat_map(|covers| &covers.of).any(|cover| cover.blends);
+        !blends && self.bodies.iter().all(|body| body.passes == Vec3::ZERO)
     }
 
     /// A world-space point as it is given.
@@ -278,7 +280,8 @@ impl Geometry {
         let Some(direction) = direction.try_normalize() else { return Vec3::ONE };
         let mut passes = Vec3::ONE;
         let mut crossed: Vec<(u32, bool, f64)> = Vec::new();
-        self.walk(&Ray::new(from.at, direction), reach, &mut |index, t| {
+        let ray = Ray::new(from.at, direction);
+        self.walk(&ray, reach, &mut |index, t| {
             if t < reach && counts(index, t) && !self.holds(index, from) {
                 let (face, triangle) = (&self.faces[index as usize], &self.triangles[index as usize]);
                 let outside = triangle.normal.dot(direction) < 0.0;
@@ -289,7 +292,7 @@ impl Geometry {
                 };
                 if !crossed.iter().any(again) {
                     crossed.push((face.object, outside, t));
-                    passes *= self.body(face.object).passes;
+                    passes *= self.passes(index, ray.at(t));
                 }
             }
             (passes != Vec3::ZERO).then_some(reach)
@@ -345,20 +348,30 @@ impl Geometry {
 
     /// Whether anything of a face is at a place of it, relative to the origin.
     pub(crate) fn is_there(&self, face: u32, at: DVec3) -> bool {
-        let Some(Holes { covers, uvs }) = &self.holes else { return true };
-        let face = face as usize;
-        let cover = &covers[self.faces[face].object as usize];
-        if !cover.has_holes() {
-            return true;
-        }
-        let [a, b, c] = uvs[face].map(Vec2::as_dvec2);
-        let DVec3 { x, y, z } = self.triangles[face].weights(at);
-        cover.is_there(a * x + b * y + c * z)
+        let Some(covers) = &self.covers else { return true };
+        let cover = &covers.of[self.faces[face as usize].object as usize];
+        !cover.has_holes() || cover.is_there(self.uv(covers, face, at))
+    }
+
+    /// What passes of the light at a place of a face, relative to the origin.
+    fn passes(&self, face: u32, at: DVec3) -> Vec3 {
+        let object = self.faces[face as usize].object;
+        let passes = self.body(object).passes;
+        let Some(covers) = &self.covers else { return passes };
+        let cover = &covers.of[object as usize];
+        if cover.blends { cover.passes(passes, self.uv(covers, face, at)) } else { passes }
+    }
+
+    /// Where a place of a face, relative to the origin, lies in the texture.
+    fn uv(&self, covers: &Covers, face: u32, at: DVec3) -> DVec2 {
+        let [a, b, c] = covers.uvs[face as usize].map(Vec2::as_dvec2);
+        let DVec3 { x, y, z } = self.triangles[face as usize].weights(at);
+        a * x + b * y + c * z
     }
 
     /// [`Ray::walk`] over all faces, but through their holes.
     fn walk(&self, ray: &Ray, mut reach: f64, visit: &mut impl FnMut(u32, f64) -> Option<f64>) {
-        if self.holes.is_none() {
+        if self.covers.is_none() {
             return ray.walk(&self.tree, &self.triangles, reach, visit);
         }
         ray.walk(&self.tree, &self.triangles, reach, &mut |face, t| {

@@ -8,7 +8,7 @@ use std::fmt;
 use umbrage_bake::Caster;
 use umbrage_depth::{DepthMap, Map, Storage};
 use umbrage_plane::View;
-use umbrage_plane::glam::{DVec3, Vec3};
+use umbrage_plane::glam::DVec3;
 use umbrage_raster::{Stats, Triangle};
 use umbrage_shadow::{Bounded, Mean, Shadow, Through};
 
@@ -255,7 +255,7 @@ impl Made<'_> {
                 let left_out = Cell::new(0);
                 // What is left out stays as a triangle of no area, so that masks are asked of the triangles that they know.
                 let wanted = |caster: Caster<'a>| {
-                    let passes = caster.passes.max(Vec3::ZERO) != Vec3::ZERO;
+                    let passes = caster.is_transparent();
                     passing.set(passing.get() || passes);
                     if passes == transparent {
                         return caster;

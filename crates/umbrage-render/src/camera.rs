@@ -135,18 +135,17 @@ impl Gather<'_> {
         }
     }
 
-    /// The mean of the texture over the samples of a group: a pixel may see many of its texels.
+    /// The mean of the texture and the corners' colours over the samples of a group: a pixel may see many texels.
     fn texture(&self, members: &[(DVec2, u32)], facets: &[Facet]) -> Vec3 {
         let mut sum = Vec3::ZERO;
         for &(position, facet) in members {
             let facet = &facets[facet as usize];
-            let cover = self.soup.cover(facet.triangle);
-            // They are of one object: all have a texture or none.
-            if cover.texture.is_none() {
+            // They are of one object: all are plain or none.
+            if self.soup.is_plain(facet.triangle) {
                 return Vec3::ONE;
             }
             let at = self.view.world_at(position, facet.plane.at(position));
-            sum += cover.colour(self.soup.uv(facet.triangle, at));
+            sum += self.soup.colour(facet.triangle, at);
         }
         sum / members.len() as f32
     }

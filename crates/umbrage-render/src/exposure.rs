@@ -1,4 +1,5 @@
-use crate::{Soup, alpha_test, receivers};
+use crate::{Soup, alpha_blend, alpha_test, receivers};
+use glam::Vec3;
 use umbrage_bake::{Caster, Deep, MaskPlace, bake_deep, mix_moments};
 use umbrage_depth::{DeepMap, DepthMap, Map, Storage, Tiled};
 use umbrage_plane::View;
@@ -33,11 +34,11 @@ pub fn light_shadow(
         _ => None,
     };
     let with = LightUse { storage, receivers: seen.as_deref(), moments: moments.len() as u32 };
-    let tests = alpha_tests(moments);
+    let covers = covers(moments);
     let casters = |view: &View, moment: u32| {
-        let moment = moments.iter().zip(&tests).nth(moment as usize);
-        let soup = moment.map(|(scene, test)| (Soup::casters(scene, view), test));
-        soup.into_iter().flat_map(|(soup, test)| soup.into_casting(test))
+        let moment = moments.iter().zip(&covers).nth(moment as usize);
+        let soup = moment.map(|(scene, covers)| (Soup::casters(scene, view), covers));
+        soup.into_iter().flat_map(|(soup, (test, blend))| soup.into_casting(test, blend))
     };
     recipe.shadow_of(std::slice::from_ref(view), &with, casters)
 }
@@ -48,21 +49,23 @@ pub fn light_shadow(
 /// # Panics
 /// As [`Soup::casters`].
 pub fn exposed_map(recipe: &Recipe, moments: &[&Scene], view: &View) -> (Map, Stats) {
-    recipe.bake_counted(view, casting(moments, &alpha_tests(moments), view))
+    recipe.bake_counted(view, casting(moments, &covers(moments), view))
 }
 
-/// The alpha test of each moment.
-fn alpha_tests<'a>(moments: &[&'a Scene]) -> Vec<impl Fn(&MaskPlace) -> bool + Sync + use<'a>> {
-    moments.iter().map(|scene| alpha_test(scene)).collect()
+/// What the covers of each moment say: the alpha test, and what passes.
+fn covers<'a>(
+    moments: &[&'a Scene],
+) -> Vec<(impl Fn(&MaskPlace) -> bool + Sync + use<'a>, impl Fn(&MaskPlace) -> Vec3 + Sync + use<'a>)> {
+    moments.iter().map(|scene| (alpha_test(scene), alpha_blend(scene))).collect()
 }
 
 /// The casters of each moment.
 fn casting<'m>(
     moments: &[&'m Scene],
-    tests: &'m [impl Fn(&MaskPlace) -> bool + Sync],
+    covers: &'m [(impl Fn(&MaskPlace) -> bool + Sync, impl Fn(&MaskPlace) -> Vec3 + Sync)],
     view: &View,
 ) -> impl Iterator<Item = impl Iterator<Item = Caster<'m>>> {
-    moments.iter().zip(tests).map(|(scene, test)| Soup::casters(scene, view).into_casting(test))
+    moments.iter().zip(covers).map(|(scene, (test, blend))| Soup::casters(scene, view).into_casting(test, blend))
 }
 
 /// Pass 1 over an exposure: each texel sees the scene at one of its moments, drawn once per texel from `seed` (EXT-2). A filter over such a
@@ -82,5 +85,5 @@ pub fn expose<M: DepthMap>(view: &View, moments: &[&Scene], seed: u32, bake: imp
 /// # Panics
 /// As [`Soup::casters`].
 pub fn expose_deep(view: &View, moments: &[&Scene], deep: &Deep) -> DeepMap {
-    bake_deep(view, casting(moments, &alpha_tests(moments), view), deep).map
+    bake_deep(view, casting(moments, &covers(moments), view), deep).map
 }

@@ -39,4 +39,4 @@ pub use picture::{Frame, NOTHING, Picture, picture, picture_where};
 pub use planar::{Ground, Planar};
 pub use receivers::receivers;
 
-pub use soup::{Soup, alpha_test};
+pub use soup::{Soup, alpha_blend, alpha_test};

@@ -1,7 +1,7 @@
 use crate::weights::weights;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use std::borrow::Cow;
-use umbrage_bake::{Caster, Mask, MaskPlace};
+use umbrage_bake::{Caster, Film, Mask, MaskPlace};
 use umbrage_plane::View;
 use umbrage_raster::Triangle;
 use umbrage_scene::{Cover, Mesh, MeshError, Object, Scene};
@@ -15,11 +15,22 @@ pub struct Soup<'a> {
     pieces: Vec<Piece<'a>>,
     /// The [`alpha_test`] of the scene.
     alpha_test: Box<dyn Fn(&MaskPlace) -> bool + Send + Sync + 'a>,
+    /// Its [`alpha_blend`].
+    alpha_blend: Box<dyn Fn(&MaskPlace) -> Vec3 + Send + Sync + 'a>,
 }
 
 /// Where something of a scene's objects is, by their [covers](Cover): the [`Mask`] of all [casters](Soup::into_casting) of the scene.
 pub fn alpha_test(scene: &Scene) -> impl Fn(&MaskPlace) -> bool + Send + Sync + '_ {
     |place| scene.objects[place.object as usize].cover.is_there(place.uv)
+}
+
+/// What light passes a scene's objects, by their [covers](Cover): the [`Film`] of its [casters](Soup::into_casting) whose cover
+/// [blends](Cover::blends).
+pub fn alpha_blend(scene: &Scene) -> impl Fn(&MaskPlace) -> Vec3 + Send + Sync + '_ {
+    |place| {
+        let object = &scene.objects[place.object as usize];
+        object.cover.passes(object.passes, place.uv)
+    }
 }
 
 struct Piece<'a> {
@@ -37,11 +48,24 @@ impl Piece<'_> {
         Triangle { corners: self.mesh.triangles[local].map(world), object: self.object, sheet: self.sheet }
     }
 
-    fn caster<'m>(&self, origin: DVec3, local: usize, alpha_test: Mask<'m>) -> Caster<'m> {
+    /// The weights of a triangle's corners at a point of it.
+    fn weights(&self, origin: DVec3, local: usize, at: DVec3) -> DVec3 {
+        weights(at, self.triangle(origin, local).corners).unwrap_or(DVec3::X)
+    }
+
+    fn uv(&self, local: usize, weights: DVec3) -> DVec2 {
+        let [a, b, c] = self.mesh.corner_uvs(local).map(Vec2::as_dvec2);
+        a * weights.x + b * weights.y + c * weights.z
+    }
+
+    fn caster<'m>(&self, origin: DVec3, local: usize, alpha_test: Mask<'m>, alpha_blend: Film<'m>) -> Caster<'m> {
         let normals = self.mesh.triangles[local].map(|vertex| self.mesh.normals[vertex as usize]);
-        let caster = Caster::from(self.triangle(origin, local)).with_passes(self.passes).with_normals(normals);
+        let mut caster = Caster::from(self.triangle(origin, local)).with_passes(self.passes).with_normals(normals);
         if self.cover.has_holes() {
-            return caster.with_uvs(self.mesh.corner_uvs(local)).with_mask(alpha_test);
+            caster = caster.with_uvs(self.mesh.corner_uvs(local)).with_mask(alpha_test);
+        }
+        if self.cover.blends {
+            caster = caster.with_uvs(self.mesh.corner_uvs(local)).with_film(alpha_blend);
         }
         caster
     }
@@ -82,7 +106,8 @@ impl<'a> Soup<'a> {
             pieces.push(Piece { object: id as u32, sheet, passes, cover, first, mesh });
             first += count;
         }
-        Self { origin: scene.origin, pieces, alpha_test: Box::new(alpha_test(scene)) }
+        let (alpha_test, alpha_blend) = (Box::new(alpha_test(scene)), Box::new(alpha_blend(scene)));
+        Self { origin: scene.origin, pieces, alpha_test, alpha_blend }
     }
 
     /// Number of triangles.
@@ -103,16 +128,20 @@ impl<'a> Soup<'a> {
             .flat_map(|piece: &Piece| (0..piece.mesh.triangles.len()).map(|local| piece.triangle(self.origin, local)))
     }
 
-    /// The same triangles, each with what passes its object, the shading normals of its mesh, and the holes of its cover.
+    /// The same triangles, each with what passes its object, the shading normals of its mesh, and what its cover adds.
     pub fn casting(&self) -> impl Iterator<Item = Caster<'_>> {
-        let caster = |piece, local| Piece::caster(piece, self.origin, local, &*self.alpha_test);
+        let caster = |piece, local| Piece::caster(piece, self.origin, local, &*self.alpha_test, &*self.alpha_blend);
         self.pieces.iter().flat_map(move |piece| (0..piece.mesh.triangles.len()).map(move |local| caster(piece, local)))
     }
 
-    /// As [`casting`](Self::casting), for who keeps no soup but the scene's [`alpha_test`].
-    pub fn into_casting<'m>(self, alpha_test: Mask<'m>) -> impl Iterator<Item = Caster<'m>> + use<'a, 'm> {
+    /// As [`casting`](Self::casting), for who keeps no soup but the scene's [`alpha_test`] and [`alpha_blend`].
+    pub fn into_casting<'m>(
+        self,
+        alpha_test: Mask<'m>,
+        alpha_blend: Film<'m>,
+    ) -> impl Iterator<Item = Caster<'m>> + use<'a, 'm> {
         let (origin, pieces) = (self.origin, self.pieces.into_iter());
-        let caster = move |piece: &Piece, local| piece.caster(origin, local, alpha_test);
+        let caster = move |piece: &Piece, local| piece.caster(origin, local, alpha_test, alpha_blend);
         pieces.flat_map(move |piece| (0..piece.mesh.triangles.len()).map(move |local| caster(&piece, local)))
     }
 
@@ -140,9 +169,25 @@ impl<'a> Soup<'a> {
     /// Where a point of a triangle, in world space, lies in the texture.
     pub(crate) fn uv(&self, triangle: u32, at: DVec3) -> DVec2 {
         let (piece, local) = self.find(triangle);
-        let weights = weights(at, piece.triangle(self.origin, local).corners).unwrap_or(DVec3::X);
-        let [a, b, c] = piece.mesh.corner_uvs(local).map(Vec2::as_dvec2);
-        a * weights.x + b * weights.y + c * weights.z
+        piece.uv(local, piece.weights(self.origin, local, at))
+    }
+
+    /// Whether a triangle's object has one colour all over.
+    pub(crate) fn is_plain(&self, triangle: u32) -> bool {
+        let piece = self.find(triangle).0;
+        piece.cover.texture.is_none() && piece.mesh.colours.is_empty()
+    }
+
+    /// What multiplies the diffuse colour at a point of a triangle, in world space: the texture, and the colours of the corners.
+    pub(crate) fn colour(&self, triangle: u32, at: DVec3) -> Vec3 {
+        let (piece, local) = self.find(triangle);
+        let weights = piece.weights(self.origin, local, at);
+        let texture = piece.cover.colour(piece.uv(local, weights));
+        if piece.mesh.colours.is_empty() {
+            return texture;
+        }
+        let [a, b, c] = piece.mesh.corner_colours(local).map(Vec3::as_dvec3);
+        texture * (a * weights.x + b * weights.y + c * weights.z).as_vec3()
     }
 
     fn world(&self, position: Vec3) -> DVec3 {

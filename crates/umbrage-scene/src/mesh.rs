@@ -18,6 +18,8 @@ pub struct Mesh {
     /// Where each position lies in a [`Texture`](crate::Texture), one a position: (0, 0) is the image's upper left corner, (1, 1)
     /// its lower right one. May be empty: then every position lies at (0, 0).
     pub uvs: Vec<Vec2>,
+    /// What multiplies the diffuse colour at each position, linear RGB, one a position. May be empty: then all are white.
+    pub colours: Vec<Vec3>,
 }
 
 /// Why a mesh cannot be drawn.
@@ -48,6 +50,14 @@ pub enum MeshError {
         /// Number of texture coordinates.
         uvs: usize,
     },
+    /// Colours, but not one a position.
+    #[error("mesh has {positions} positions but {colours} colours")]
+    Colours {
+        /// Number of positions.
+        positions: usize,
+        /// Number of colours.
+        colours: usize,
+    },
     /// A triangle names a vertex that does not exist.
     #[error("mesh triangle {triangle} names vertex {vertex} of {vertices}")]
     Index {
@@ -58,8 +68,8 @@ pub enum MeshError {
         /// Number of vertices.
         vertices: usize,
     },
-    /// A coordinate of a position or a normal, or in the texture, is NaN or infinite.
-    #[error("mesh vertex {vertex} has a coordinate that is not finite")]
+    /// A coordinate of a position or a normal, or in the texture, or a channel of a colour, is NaN or infinite.
+    #[error("mesh vertex {vertex} has a coordinate or a colour that is not finite")]
     NotFinite {
         /// The vertex.
         vertex: usize,
@@ -82,6 +92,9 @@ impl Mesh {
         if !self.uvs.is_empty() && self.uvs.len() != vertices {
             return Err(MeshError::Uvs { positions: vertices, uvs: self.uvs.len() });
         }
+        if !self.colours.is_empty() && self.colours.len() != vertices {
+            return Err(MeshError::Colours { positions: vertices, colours: self.colours.len() });
+        }
         for (triangle, corners) in self.triangles.iter().enumerate() {
             if let Some(&vertex) = corners.iter().find(|&&vertex| vertex as usize >= vertices) {
                 return Err(MeshError::Index { triangle, vertex, vertices });
@@ -89,7 +102,8 @@ impl Mesh {
         }
         let finite = |vertex: &usize| {
             let in_texture = self.uvs.get(*vertex).is_none_or(|uv| uv.is_finite());
-            self.positions[*vertex].is_finite() && self.normals[*vertex].is_finite() && in_texture
+            let coloured = self.colours.get(*vertex).is_none_or(|colour| colour.is_finite());
+            self.positions[*vertex].is_finite() && self.normals[*vertex].is_finite() && in_texture && coloured
         };
         match (0..vertices).find(|vertex| !finite(vertex)) {
             Some(vertex) => Err(MeshError::NotFinite { vertex }),
@@ -118,6 +132,15 @@ impl Mesh {
     pub fn corner_uvs(&self, triangle: usize) -> [Vec2; 3] {
         let uv = |vertex: u32| if self.uvs.is_empty() { Vec2::ZERO } else { self.uvs[vertex as usize] };
         self.triangles[triangle].map(uv)
+    }
+
+    /// The colours of the three corners of a triangle: all white without [`Mesh::colours`].
+    ///
+    /// # Panics
+    /// When the triangle does not exist, or a vertex that it names has no colour while others have.
+    pub fn corner_colours(&self, triangle: usize) -> [Vec3; 3] {
+        let colour = |vertex: u32| if self.colours.is_empty() { Vec3::ONE } else { self.colours[vertex as usize] };
+        self.triangles[triangle].map(colour)
     }
 
     /// True when the triangles bound a solid: every edge, named by its two positions, belongs to exactly two triangles
@@ -167,7 +190,7 @@ impl Mesh {
     }
 
     /// Adds another mesh's triangles. Its surfaces are numbered after this mesh's. Where only one of the two has [`Mesh::uvs`],
-    /// the other's vertices keep the place in the texture that they have without: (0, 0).
+    /// the other's vertices keep the place in the texture that they have without: (0, 0). So it is with [`Mesh::colours`], and white.
     ///
     /// # Panics
     /// When vertices or surfaces would pass 2³².
@@ -178,6 +201,11 @@ impl Mesh {
             self.uvs.resize(self.positions.len(), Vec2::ZERO);
             self.uvs.extend_from_slice(&other.uvs);
             self.uvs.resize(self.positions.len() + other.positions.len(), Vec2::ZERO);
+        }
+        if !(self.colours.is_empty() && other.colours.is_empty()) {
+            self.colours.resize(self.positions.len(), Vec3::ONE);
+            self.colours.extend_from_slice(&other.colours);
+            self.colours.resize(self.positions.len() + other.positions.len(), Vec3::ONE);
         }
         self.positions.extend_from_slice(&other.positions);
         self.normals.extend_from_slice(&other.normals);

@@ -81,13 +81,13 @@ pub struct Object {
     pub casts: bool,
     /// Can be shadowed.
     pub receives: bool,
-    /// True for the closed boundary of a solid, false for an open, two-sided surface. Where the [cover](Self::cover) has holes it
-    /// counts as false: see [`Object::is_solid`].
+    /// True for the closed boundary of a solid, false for an open, two-sided surface. Where the [cover](Self::cover) has holes, or
+    /// blends, it counts as false: see [`Object::is_solid`].
     pub solid: bool,
     /// Share of the light that passes one surface of it, linear RGB in 0..=1: 0 is opaque. Only deep maps and rays know of it;
-    /// a closed solid has two surfaces in the way.
+    /// a closed solid has two surfaces in the way. Where the [cover](Self::cover) blends it is what passes at an alpha of 1.
     pub passes: Vec3,
-    /// What its texture adds to [`Object::material`]: colour, and holes.
+    /// What its texture adds to [`Object::material`] and [`Object::passes`]: colour, holes, and alpha that lets light pass.
     pub cover: Cover,
 }
 
@@ -117,9 +117,10 @@ impl Object {
         Self { cover, ..self }
     }
 
-    /// True for the closed boundary of a solid. An object with holes is not one: its inside is seen, and light comes in.
+    /// True for the closed boundary of a solid. An object with holes is not one: its inside is seen, and light
+    /// comes in. One whose cover [blends](Cover::blends) may be clear at places, and is not one either.
     pub fn is_solid(&self) -> bool {
-        self.solid && !self.cover.has_holes()
+        self.solid && !self.cover.has_holes() && !self.cover.blends
     }
 }
 

@@ -126,6 +126,15 @@ impl Texture {
         self.size
     }
 
+    /// The least alpha of its texels: nothing of it has less.
+    pub fn least_alpha(&self) -> f32 {
+        let alpha = |least: f32, alpha: f32| least.min(alpha);
+        match &self.texels {
+            Texels::Linear(texels) => texels.iter().map(|texel| texel.w).fold(f32::INFINITY, alpha),
+            Texels::Srgb(texels) => texels.iter().map(|texel| f32::from(texel[3]) / 255.0).fold(f32::INFINITY, alpha),
+        }
+    }
+
     /// Linear RGB and alpha at a place in the texture. A place that is not finite counts as (0, 0).
     pub fn sample(&self, uv: DVec2) -> Vec4 {
         let place = uv * self.size.as_dvec2();

@@ -281,7 +281,7 @@ fn a_texture_lies_on_the_surface_and_not_on_the_picture() {
 #[test]
 fn what_is_cut_away_altogether_is_as_if_it_were_not() {
     let ball = Object::solid("ball", Mesh::sphere(Vec3::Y * 4.0, 2.0, 32), Material::matt(Vec3::ONE));
-    let gone = ball.with_cover(Cover { texture: None, cutoff: Some(1.5) });
+    let gone = ball.with_cover(Cover { cutoff: Some(1.5), ..Cover::default() });
     let scene = scene(gone, &spot());
     for seen in [traced(&scene), mapped(&scene, "auto"), mapped(&scene, "woo92"), mapped(&scene, "wang-molnar94")] {
         assert!(!seen.object.contains(&1));
@@ -295,4 +295,58 @@ fn what_is_cut_away_altogether_is_as_if_it_were_not() {
     let wrong = |scene: &Scene| diagnose_recipe(scene, &scene.lights[0], &"woo92".parse().unwrap());
     let alone = Scene { objects: scene.objects[..1].to_vec(), ..scene.clone() };
     assert_eq!(wrong(&scene), wrong(&alone));
+}
+
+/// What blends lets light pass by its alpha at each place: the default is as rays, and other recipes see all of it that is not clear.
+#[test]
+fn light_passes_what_blends_by_its_alpha() {
+    // Alpha rises from 0 at the left of the board to 1 at its right.
+    let ramp = Texture::linear(UVec2::new(2, 1), vec![Vec4::new(1.0, 1.0, 1.0, 0.0), Vec4::ONE]).unwrap();
+    let uvs = [Vec2::Y, Vec2::ONE, Vec2::ZERO, Vec2::X].map(|uv| uv * 0.5 + 0.25).to_vec();
+    let board = sheet("board", Mesh { uvs, ..board() });
+    let board = Object { passes: Vec3::new(0.25, 0.0, 0.5), ..board };
+    let blended = board.with_cover(Cover::blended(Arc::new(ramp.with_wrap([Wrap::Clamp; 2]))));
+    for view in [sun(), spot()] {
+        let scene = scene(blended.clone(), &view);
+        let geometry = Geometry::new(&scene, &scene.camera);
+        let truth = RayCast::new(&geometry, &view);
+        let made = light_shadow(&Recipe::default(), &[&scene], &view, Storage::Tiled).unwrap();
+        let mut between = 0;
+        for (x, z) in (0..400).map(|i| ((i % 20) as f32 * 0.7 - 6.65, (i / 20) as f32 * 0.7 - 6.65)) {
+            let corners =
+                [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(u, v)| DVec3::new(u, 0.0, v) * 0.01);
+            let at = SurfacePoint::at(Vec3::new(x, 0.0, z), Vec3::Y);
+            let at = SurfacePoint { object: 0, ..at.with_corners(corners.map(|corner| at.position + corner)) };
+            let expected = truth.passes(&at);
+            let (mut dark, mut found) = ([0.0], [Vec3::ONE]);
+            made.shadow.fractions(&[at], Key::new(0, 0, 0), &mut dark);
+            made.shadow.transmittances(&[at], Key::new(0, 0, 0), &dark, &mut found);
+            // The board's own edge is blurred by a texel.
+            let beside = [-0.1, 0.1].map(|by| truth.passes(&SurfacePoint::at(Vec3::new(x + by, 0.0, z + by), Vec3::Y)));
+            if beside.iter().all(|light| (*light - expected).abs().max_element() < 0.05) {
+                assert!((found[0] - expected).abs().max_element() < 0.03, "{x} {z}: {} {expected}", found[0]);
+                between += u32::from(expected.y > 0.05 && expected.y < 0.95);
+            }
+        }
+        assert!(between > 50, "{between}");
+    }
+}
+
+/// Colours of corners are mixed over the surface, and multiply the texture.
+#[test]
+fn colours_of_corners_multiply_the_texture() {
+    let colours = board().positions.iter().map(|at| Vec3::new(at.x / 8.0 + 0.5, 1.0, 0.25)).collect();
+    let cover = Cover::textured(Arc::new(Texture::linear(UVec2::ONE, vec![Vec4::new(1.0, 0.5, 1.0, 1.0)]).unwrap()));
+    let painted = sheet("board", Mesh { colours, ..board() });
+    for (board, green) in [(painted.clone(), 0.5), (painted.with_cover(cover), 0.25)] {
+        let mut scene = scene(board, &sun());
+        scene.lights.clear();
+        let seen = picture(&scene, &[], &Frame::CENTRES);
+        let on_board: Vec<usize> = (0..seen.object.len()).filter(|i| seen.object[*i] == 1).collect();
+        assert!(on_board.len() > 400);
+        for i in on_board {
+            let expected = Vec3::new((0.5 * (seen.position[i].x / 8.0 + 0.5)) as f32, green, 0.125);
+            assert!((seen.colour[i] - expected).abs().max_element() < 1e-4, "{} {expected}", seen.colour[i]);
+        }
+    }
 }

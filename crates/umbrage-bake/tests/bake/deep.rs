@@ -1,8 +1,8 @@
 //! What light is left behind leaves and glass and behind what moves.
 
 use crate::shapes::{ball, cuboid, quad};
-use glam::{DVec3, IVec2, UVec2, Vec3};
-use umbrage_bake::{Caster, Deep, bake, bake_deep, mix_moments};
+use glam::{DVec3, IVec2, UVec2, Vec2, Vec3};
+use umbrage_bake::{Caster, Deep, MaskPlace, bake, bake_deep, mix_moments};
 use umbrage_depth::{DeepMap, DepthMap, First, Raw};
 use umbrage_plane::{TexelRect, View};
 use umbrage_raster::{Cull, Triangle};
@@ -148,5 +148,36 @@ fn depths_that_are_none_are_no_surfaces_of_a_deep_map() {
     let map = bake_deep(&view, [quad(corners, 0, true)], &lossless(1)).map;
     for texel in TexelRect::of_size(view.size()).texels() {
         assert!(map.steps(texel).iter().all(|step| step.depth < 1e30), "{texel}");
+    }
+}
+
+#[test]
+fn a_film_says_place_by_place_what_passes() {
+    // From 1 at the left to 0 at the right of a sheet of 32 units, and less blue; over its left half a pane that lets half pass.
+    let uvs = [Vec2::Y, Vec2::ONE, Vec2::X, Vec2::ZERO];
+    let clear = |u: f32| Vec3::new(1.0, 1.0, 0.5) * (1.0 - u);
+    let film = |at: &MaskPlace| clear(at.uv.x as f32);
+    let sheet =
+        quad([(-16.0, -16.0), (16.0, -16.0), (16.0, 16.0), (-16.0, 16.0)].map(|(x, y)| Vec3::new(x, y, 10.0)), 1, true);
+    let corners = [[uvs[0], uvs[1], uvs[2]], [uvs[0], uvs[2], uvs[3]]];
+    let filmed: Vec<_> =
+        sheet.into_iter().zip(corners).map(|(t, uvs)| Caster::from(t).with_uvs(uvs).with_film(&film)).collect();
+    assert!(filmed.iter().all(Caster::is_transparent), "whatever `passes` says");
+    let pane = flat(20.0, 0.0, 0).map(|triangle| Caster::from(triangle).with_passes(Vec3::splat(0.5)));
+    let map = bake_deep(&above(), [[&pane[..], &filmed].concat()], &lossless(4)).map;
+    for x in 0..64 {
+        let u = (x as f32 + 0.5) / 64.0;
+        let expected = clear(u) * if x < 32 { 1.0 } else { 0.5 };
+        let found = map.transmittance(IVec2::new(x, 30), f32::INFINITY);
+        assert!((found - expected).abs().max_element() < 1e-5, "{x}: {found} {expected}");
+    }
+    // Beyond 0..=1 and NaN are as elsewhere, and holes stay holes.
+    for (says, passes) in [(7.0, 1.0), (-1.0, 0.0), (f32::NAN, 0.0)] {
+        let film = |_: &MaskPlace| Vec3::splat(says);
+        let hole = |at: &MaskPlace| at.uv.x > 0.5;
+        let casters = filmed.iter().map(|caster| caster.with_film(&film).with_mask(&hole));
+        let map = bake_deep(&above(), [casters], &lossless(1)).map;
+        let behind = [10, 50].map(|x| map.transmittance(IVec2::new(x, 30), f32::INFINITY).x);
+        assert_eq!(behind, [1.0, passes], "{says}");
     }
 }

@@ -59,12 +59,39 @@ fn a_mask_cuts_holes_where_the_image_is_transparent() {
 
 #[test]
 fn colours_alone_cut_no_holes() {
-    for (image, mode) in [(png(), "OPAQUE"), (png(), "BLEND"), (JPEG.to_vec(), "OPAQUE")] {
+    for (image, mode) in [(png(), "OPAQUE"), (JPEG.to_vec(), "BLEND"), (JPEG.to_vec(), "OPAQUE")] {
         let material = json!({"alphaMode": mode, "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}});
         let import = textured(&image, material).read().unwrap();
         let cover = &import.scene.objects[0].cover;
-        assert!(cover.texture.is_some() && cover.cutoff.is_none(), "{mode}");
+        assert!(cover.texture.is_some() && cover.cutoff.is_none() && !cover.blends, "{mode}");
     }
+}
+
+#[test]
+fn blended_textures_let_light_pass_by_their_alpha_and_the_factor_s() {
+    let base = json!({"baseColorTexture": {"index": 0}, "baseColorFactor": [1.0, 1.0, 1.0, 0.75]});
+    let material = json!({"alphaMode": "BLEND", "pbrMetallicRoughness": base});
+    let mut build = textured(&png(), material);
+    let import = build.read().unwrap();
+    let object = &import.scene.objects[0];
+    let passes = |x: f64, y: f64| object.cover.passes(object.passes, DVec2::new(x, y)).x;
+    let texels = [passes(0.25, 0.25), passes(0.75, 0.25), passes(0.25, 0.75)];
+    assert_eq!(texels, [0.25, 1.0 - 0.75 * 128.0 / 255.0, 1.0]);
+    let there = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75)].map(|(x, y)| object.cover.is_there(DVec2::new(x, y)));
+    assert_eq!(there, [true, true, false], "what is quite clear is not there");
+    build.document["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.0.into();
+    assert!(build.read().unwrap().scene.objects.is_empty());
+    // Without its texture it is as its factor says.
+    let mut build = textured(
+        b"no image",
+        json!({"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}),
+    );
+    let import = build.read().unwrap();
+    assert_eq!((import.scene.objects[0].passes, import.scene.objects[0].cover.blends), (Vec3::ZERO, false));
+    let said = "baseColorTexture is not shown, and its alpha counts as 1: images[0]";
+    assert!(notes(&import).iter().any(|note| note.contains(said)), "{:?}", notes(&import));
+    build.document["materials"][0]["alphaMode"] = "OPAQUE".into();
+    assert!(notes(&build.read().unwrap()).iter().any(|note| note.contains("baseColorTexture is not shown: ")));
 }
 
 #[test]

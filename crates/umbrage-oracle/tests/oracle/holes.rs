@@ -63,10 +63,29 @@ fn a_solid_with_holes_is_lit_from_within() {
     let outside = SurfacePoint::at(Vec3::X * 3.0, Vec3::NEG_X);
     // Above its cutoff all is there, so that rays alone decide; below it nothing is.
     for (cutoff, dark, solid) in [(None, 1.0, true), (Some(0.5), 1.0, false), (Some(2.0), 0.0, false)] {
-        let cover = Cover { texture: None, cutoff };
+        let cover = Cover { cutoff, ..Cover::default() };
         let scene = Scene { objects: vec![cube.clone().with_cover(cover)], ..gallery::sphere_plane() };
         let geometry = Geometry::new(&scene, &view());
         assert_eq!(RayCast::everywhere(&geometry, lamp).at(&outside), dark, "{cutoff:?}");
         assert_eq!(geometry.body(0).solid, solid);
     }
+}
+
+#[test]
+fn what_blends_lets_light_pass_by_its_alpha() {
+    let mut scene = sheets(&[true, false], Vec3::ZERO);
+    let texels = vec![Vec4::ONE, Vec4::new(1.0, 1.0, 1.0, 0.25)];
+    let texture = Texture::linear(UVec2::new(2, 1), texels).unwrap().with_interpolation(Interpolation::Nearest);
+    scene.objects[0].cover = Cover::blended(Arc::new(texture));
+    scene.objects[1].passes = Vec3::new(0.5, 1.0, 0.0);
+    let at = |x: f32| SurfacePoint { object: 9, ..SurfacePoint::at(Vec3::new(x, 0.0, 0.3), Vec3::Y) };
+    let passes = |scene: &Scene| {
+        let geometry = Geometry::new(scene, &view());
+        assert!(!geometry.is_opaque());
+        let truth = RayCast::everywhere(&geometry, DVec4::Y);
+        [-0.4, 0.4, 1.4].map(|x| truth.passes(&at(x)))
+    };
+    assert_eq!(passes(&scene), [Vec3::ZERO, Vec3::new(0.375, 0.75, 0.0), Vec3::ONE]);
+    scene.objects.pop();
+    assert_eq!(passes(&scene), [Vec3::ZERO, Vec3::splat(0.75), Vec3::ONE]);
 }

@@ -45,14 +45,14 @@ fn triangles_come_with_what_passes_their_object_and_the_normals_of_their_mesh() 
         assert_eq!(caster.passes, scene.objects[caster.triangle.object as usize].passes);
         assert!(caster.normals.is_some_and(|normals| normals.iter().all(|normal| normal.is_normalized())));
     }
-    assert!(casting.iter().all(|caster| caster.mask.is_none()), "nothing has holes");
-    assert_eq!(Soup::casters(&scene, &view).into_casting(&|_| true).collect::<Vec<_>>(), casting);
+    assert!(casting.iter().all(|caster| caster.mask.is_none() && caster.film.is_none()), "nothing has holes or blends");
+    assert_eq!(Soup::casters(&scene, &view).into_casting(&|_| true, &|_| Vec3::ZERO).collect::<Vec<_>>(), casting);
 }
 
 #[test]
 fn what_has_holes_comes_with_its_places_in_the_texture_and_a_mask() {
     let mut scene: Scene = gallery::sphere_plane();
-    scene.objects[0].cover = Cover { texture: None, cutoff: Some(2.0) };
+    scene.objects[0].cover = Cover { cutoff: Some(2.0), ..Cover::default() };
     let Shape::Mesh(mesh) = &mut scene.objects[0].shape else { panic!("a mesh") };
     mesh.uvs = mesh.positions.iter().map(|at| at.truncate()).collect();
     let uvs = mesh.corner_uvs(17);
@@ -66,7 +66,7 @@ fn what_has_holes_comes_with_its_places_in_the_texture_and_a_mask() {
     let test = alpha_test(&scene);
     let [whole, moved] = [
         bake(&view, soup.casting(), &First, Cull::None),
-        bake(&view, Soup::casters(&scene, &view).into_casting(&test), &First, Cull::None),
+        bake(&view, Soup::casters(&scene, &view).into_casting(&test, &|_| Vec3::ZERO), &First, Cull::None),
     ];
     let wall = bake(&view, soup.triangles().filter(|triangle| triangle.object == 1), &First, Cull::None);
     assert!(whole.map == wall.map && moved.map == wall.map);

@@ -108,15 +108,15 @@ fn a_cover_has_holes_where_alpha_is_below_its_cutoff() {
     let whole = Cover::textured(Arc::clone(&half));
     assert!(!whole.has_holes() && whole.is_there(right));
     assert_eq!(whole.colour(left), Vec3::splat(0.5));
-    let bare = Cover { texture: None, cutoff: Some(0.5) };
+    let bare = Cover { cutoff: Some(0.5), ..Cover::default() };
     assert!(bare.has_holes() && bare.is_there(left) && bare.colour(left) == Vec3::ONE);
-    assert!(!Cover { texture: None, cutoff: Some(2.0) }.is_there(left));
+    assert!(!Cover { cutoff: Some(2.0), ..Cover::default() }.is_there(left));
 }
 
 #[test]
 fn a_solid_with_holes_is_none() {
     let cube = Object::solid("cube", Mesh::cuboid(Vec3::ZERO, Vec3::ONE), Material::matt(Vec3::ONE));
-    let cover = |cutoff| Cover { texture: Some(Arc::new(counted())), cutoff };
+    let cover = |cutoff| Cover { cutoff, ..Cover::textured(Arc::new(counted())) };
     assert!(cube.is_solid() && cube.clone().with_cover(cover(None)).is_solid());
     assert!(!cube.with_cover(cover(Some(0.5))).is_solid());
     assert!(gallery::sphere_plane().objects.iter().all(|object| object.cover == Cover::default()));
@@ -161,5 +161,41 @@ proptest! {
     fn a_mean_of_equal_texels_is_what_they_are(alpha in 0.0f32..1.0, u in -9.0f64..9.0, v in -9.0f64..9.0) {
         let texture = Texture::linear(UVec2::new(3, 5), vec![Vec4::splat(alpha); 15]).unwrap();
         prop_assert_eq!(texture.sample(DVec2::new(u, v)), Vec4::splat(alpha));
+    }
+}
+
+#[test]
+fn alpha_that_blends_lets_light_pass() {
+    let texels = vec![Vec4::ONE, Vec4::new(1.0, 1.0, 1.0, 0.25), Vec4::new(1.0, 1.0, 1.0, -3.0)];
+    let texture = Texture::linear(UVec2::new(3, 1), texels).unwrap().with_interpolation(Interpolation::Nearest);
+    assert_eq!(texture.least_alpha(), -3.0);
+    assert_eq!(Texture::srgb(UVec2::new(2, 1), vec![[9, 9, 9, 255], [9, 9, 9, 51]]).unwrap().least_alpha(), 0.2);
+    let cover = Cover::blended(Arc::new(texture));
+    let red = Vec3::new(0.5, 0.0, 0.0);
+    let passes = |cover: &Cover| [0.1, 0.5, 0.9].map(|u| cover.passes(red, DVec2::new(u, 0.5)));
+    assert_eq!(passes(&cover), [red, Vec3::new(0.875, 0.75, 0.75), Vec3::ONE]);
+    assert_eq!(passes(&Cover { blends: false, ..cover.clone() }), [red; 3]);
+    assert_eq!(passes(&Cover { texture: None, ..cover.clone() }), [red; 3]);
+    assert!(!cover.has_holes());
+    let cube = Object::solid("cube", Mesh::cuboid(Vec3::ZERO, Vec3::ONE), Material::matt(Vec3::ONE));
+    assert!(!cube.with_cover(cover).is_solid(), "it may be clear at places");
+}
+
+#[test]
+fn colours_are_one_a_position_or_none() {
+    let sheet = Mesh::sheet([Vec3::ZERO, Vec3::X, Vec3::X + Vec3::Y, Vec3::Y], 1);
+    assert_eq!(sheet.corner_colours(0), [Vec3::ONE; 3]);
+    let mut painted = Mesh { colours: vec![Vec3::X; 3], ..sheet.clone() };
+    assert_eq!(painted.check(), Err(MeshError::Colours { positions: 4, colours: 3 }));
+    painted.colours.push(Vec3::splat(f32::INFINITY));
+    assert_eq!(painted.check(), Err(MeshError::NotFinite { vertex: 3 }));
+    painted.colours[3] = Vec3::Y;
+    assert_eq!(painted.check(), Ok(()));
+    for (first, second) in [(&painted, &painted), (&painted, &sheet), (&sheet, &painted)] {
+        let mut all = first.clone();
+        all.append(second);
+        assert_eq!(all.check(), Ok(()));
+        let each = [first, second].map(|mesh| (0..2).map(|triangle| mesh.corner_colours(triangle)).collect::<Vec<_>>());
+        assert_eq!((0..4).map(|triangle| all.corner_colours(triangle)).collect::<Vec<_>>(), each.concat());
     }
 }
