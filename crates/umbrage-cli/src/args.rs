@@ -43,15 +43,15 @@ pub enum Command {
   umbrage shadow fixtures/scenes/bunny.glb --area --map-size 128 --size 96x72 -o shadows
   umbrage shadow gallery:three-lights --truth --size 128x128 --format exr -o truth")]
     Shadow(ShadowArgs),
-    /// Write the shadow map of each light
+    /// Write the shadow map of each light: a file for each, of one part, or of several around a light that one map cannot hold
     #[command(after_help = "Examples:
   umbrage bake gallery:contact-box -o maps
-  umbrage bake gallery:glass-pane --rule deep --map-size 256 -o maps")]
+  umbrage bake gallery:three-lights --one-file --map-size 256 -o maps")]
     Bake(BakeArgs),
-    /// Say what a shadow map holds
+    /// Say what a file of shadow maps holds
     #[command(after_help = "Examples:
   umbrage info maps/contact-box.exr
-  umbrage info maps/contact-box.exr --picture depths.png")]
+  umbrage info maps/three-lights.exr --part red --picture depths.png")]
     Info(InfoArgs),
     /// Look points up in a shadow map: a line of numbers in, a fraction out
     #[command(
@@ -59,7 +59,7 @@ pub enum Command {
 footprint; commas or blanks part them. A first line of names is skipped.
 
 Examples:
-  echo '0 0 0 0 1 0' | umbrage lookup maps/contact-box.exr
+  echo '0 0 0 0 1 0' | umbrage lookup maps/three-lights.exr --part red
   umbrage lookup maps/contact-box.exr --recipe auto --keep-going < points.csv > fractions.txt"
     )]
     Lookup(LookupArgs),
@@ -186,6 +186,9 @@ pub struct BakeArgs {
     /// How maps of one depth per texel are kept: raw files hold every texel, bbox files the rectangle around all surfaces
     #[arg(long, value_name = "raw|bbox|tiled", default_value = "raw")]
     pub storage: Storage,
+    /// Write one file, SCENE.exr, with the parts of all lights
+    #[arg(long)]
+    pub one_file: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -207,21 +210,43 @@ pub struct ExportArgs {
     pub output: PathBuf,
 }
 
+/// A file of maps, and how it is understood.
 #[derive(Args)]
-pub struct InfoArgs {
-    /// The map
+pub struct MapArgs {
+    /// The file of one map, or of several in parts
     #[arg(value_name = "MAP.exr")]
     pub map: PathBuf,
-    /// Also draw its depths in grey, near is bright
+    /// Only the part of this name, or those of the light of this name
+    #[arg(long, value_name = "NAME")]
+    pub part: Option<String>,
+    /// What another maker's file calls the channel of depths; Z, or the only one that ends in .Z, unless given
+    #[arg(long, value_name = "NAME")]
+    pub channel: Option<String>,
+    /// Where the light of another maker's file stands: a JSON file, or its text
+    ///
+    /// {"worldtocamera": [16 numbers], "worldtoscreen": [16 numbers], "near": N, "far": N, "depth": "axial"}
+    ///
+    /// The matrices are those of OpenEXR and RenderMan: rows one after the other, a point is a row from the left, the camera looks along +z,
+    /// and the screen goes from -1, -1 lower left to 1, 1 upper right (or from 0, 0 upper left to 1, 1 lower right). near and far are
+    /// distances along the axis; they may be left out where worldtoscreen takes them to 0 and 1. depth is axial (along the axis), radial
+    /// (from the light) or screen (a z-buffer: 0 at near, 1 at far, nothing seen at 1); axial unless given.
+    #[arg(long, value_name = "FILE|TEXT")]
+    pub view: Option<String>,
+}
+
+#[derive(Args)]
+pub struct InfoArgs {
+    #[command(flatten)]
+    pub maps: MapArgs,
+    /// Also draw the depths in grey, near is dark; those of several parts beside one another
     #[arg(long, value_name = "IMAGE.png")]
     pub picture: Option<PathBuf>,
 }
 
 #[derive(Args)]
 pub struct LookupArgs {
-    /// The map
-    #[arg(value_name = "MAP.exr")]
-    pub map: PathBuf,
+    #[command(flatten)]
+    pub maps: MapArgs,
     /// The algorithm; unless given, the one that the map was made for
     #[arg(long, value_name = "R")]
     pub recipe: Option<String>,

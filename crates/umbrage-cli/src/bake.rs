@@ -4,20 +4,13 @@ use crate::args::{BakeArgs, Cli, RuleArg};
 use crate::names;
 use crate::shadow::report;
 use crate::shell::{Shell, Usage};
-use crate::stage::Stage;
+use crate::stage::{Lamp, Stage};
 use anyhow::Context;
-use std::path::Path;
 use std::time::{Duration, Instant};
-use umbrage_depth::{DepthMap, Map};
-use umbrage_io::{IoError, create_folder, write_deep_map, write_facet_map, write_shadow_map};
+use umbrage_depth::DepthMap;
+use umbrage_io::{CUBE_FACES, FACES_AHEAD, NamedMap, create_folder, write_maps};
 use umbrage_recipe::Recipe;
 use umbrage_render::light_map;
-
-/// Names of the views of a light that shines all around.
-const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
-
-/// And of one that shines into a half space.
-const AHEAD: [&str; 5] = ["ahead", "right", "left", "up", "down"];
 
 pub fn run(cli: &Cli, args: &BakeArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {
     if args.scene.recipe.is_some() {
@@ -26,28 +19,47 @@ pub fn run(cli: &Cli, args: &BakeArgs, shell: &mut Shell<'_>) -> anyhow::Result<
     let recipe: Recipe = recipe(args.rule).parse().context("--rule")?;
     let stage = Stage::new(&args.scene, cli.max_memory, 0, shell)?;
     create_folder(&args.output)?;
-    let (mut files, mut lines) = (Vec::new(), Vec::new());
+    let (mut files, mut lines, mut all) = (Vec::new(), Vec::new(), Vec::new());
     for lamp in &stage.lamps {
-        let (mut bytes, mut baked, mut written) = (0, Duration::ZERO, Duration::ZERO);
-        for (index, view) in lamp.views.iter().enumerate() {
-            let start = Instant::now();
+        let start = Instant::now();
+        let bake = |(name, view)| {
             let map = light_map(&recipe, &stage.scene, view).kept(args.storage);
-            baked += start.elapsed();
-            bytes += map.allocated();
-            let face: &[&str] = match lamp.views.len() {
-                1 => &[],
-                6 => &FACES[index..=index],
-                _ => &AHEAD[index..=index],
-            };
-            let path = names::file(&args.output, &stage.scene.name, stage.part(lamp), face, "exr");
-            let start = Instant::now();
-            write(&path, &map)?;
-            written += start.elapsed();
+            NamedMap {
+                name,
+                map,
+                light_cone: stage.scene.lights[lamp.light].view.cone().filter(|_| lamp.views.len() > 1),
+            }
+        };
+        let maps: Vec<NamedMap> = parts(lamp).into_iter().zip(&lamp.views).map(bake).collect();
+        let (baked, start) = (start.elapsed(), Instant::now());
+        let bytes = maps.iter().map(|named| named.map.allocated()).sum();
+        let mut written = Duration::ZERO;
+        if args.one_file {
+            all.extend(maps);
+        } else {
+            let path = names::file(&args.output, &stage.scene.name, stage.part(lamp), &[], "exr");
+            write_maps(&path, &maps)?;
+            written = start.elapsed();
             files.push(path);
         }
         lines.push((lamp.name.clone(), recipe.to_string(), bytes, baked, written));
     }
+    if !all.is_empty() {
+        let path = names::file(&args.output, &stage.scene.name, None, &[], "exr");
+        write_maps(&path, &all)?;
+        files.push(path);
+    }
     report(cli, shell, &files, lines)
+}
+
+/// What the maps of a light are called.
+fn parts(lamp: &Lamp) -> Vec<String> {
+    let faces: &[&str] = match lamp.views.len() {
+        1 => return vec![lamp.name.clone()],
+        6 => &CUBE_FACES,
+        _ => &FACES_AHEAD,
+    };
+    faces.iter().map(|face| format!("{}.{face}", lamp.name)).collect()
 }
 
 /// The recipe that bakes by a rule.
@@ -59,15 +71,5 @@ fn recipe(rule: RuleArg) -> &'static str {
         RuleArg::BackFace => "wang-molnar94,stored=back-face",
         RuleArg::Midpoint => "woo92",
         RuleArg::Deep => "reeves87,stored=deep",
-    }
-}
-
-fn write(path: &Path, map: &Map) -> Result<(), IoError> {
-    match map {
-        Map::Facets(map) => write_facet_map(path, map),
-        Map::Deep(map) => write_deep_map(path, map),
-        Map::Raw(map) => write_shadow_map(path, map),
-        Map::Bbox(map) => write_shadow_map(path, map),
-        Map::Tiled(map) => write_shadow_map(path, map),
     }
 }

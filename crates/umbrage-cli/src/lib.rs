@@ -10,6 +10,7 @@ mod info;
 mod lamp;
 mod listing;
 mod lookup;
+mod maps;
 mod memory;
 mod names;
 mod render;

@@ -48,6 +48,12 @@ impl Fault {
         }
     }
 
+    /// The same of one of several parts.
+    pub(crate) fn in_part(self, part: &str) -> Self {
+        let part: String = part.escape_debug().take(120).collect();
+        Self { field: format!("part {part}: {}", self.field), ..self }
+    }
+
     pub(crate) fn in_file(self, path: &Path) -> IoError {
         IoError::Content { file: name(path), fault: self }
     }

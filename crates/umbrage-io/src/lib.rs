@@ -10,6 +10,7 @@
 //! * [`write_png`], [`write_png_grey`], [`write_exr`]: pictures from linear light; [`read_png`] for comparing.
 //! * [`encode_png_values`], [`encode_exr_values`]: a quantity for each pixel, such as a fraction in shadow, without a curve.
 //! * [`read_map`]: whichever of these maps a file holds.
+//! * [`write_maps`] and [`read_maps`]: several of them in one file, a part for each, by name; [`MapOptions`] help with files of other makers.
 //! * [`depth_view`] and [`replicate`]: a map as a grey picture, a zoom without invention.
 //! * [`read_bytes`], [`create_folder`] and [`file_bytes`]: files for those who open none themselves.
 //! * [`write_atomic`]: the one path on which all of these write. A killed run leaves no torn file.
@@ -34,12 +35,14 @@ mod depth_view;
 mod error;
 mod facet_map;
 mod file;
+mod map_options;
+mod named;
 mod paged;
 mod picture;
 mod shadow_map;
 mod write_file;
 
-pub use any_map::{decode_map, read_map};
+pub use any_map::{Maps, NamedMap, decode_map, decode_maps, encode_maps, read_map, read_maps, write_maps};
 pub use cube::opengl_cube_face;
 pub use deep_map::{
     DEFAULT_DEEP_BUDGET, decode_deep_map, encode_deep_map, read_deep_map, read_deep_map_within, write_deep_map,
@@ -50,6 +53,8 @@ pub use facet_map::{
     DEFAULT_FACET_BUDGET, decode_facet_map, encode_facet_map, read_facet_map, read_facet_map_within, write_facet_map,
 };
 pub use file::{create_folder, file_bytes, machine_memory, read_bytes};
+pub use map_options::{GivenView, MapOptions};
+pub use named::{CUBE_FACES, FACES_AHEAD, light_of};
 pub use paged::{Paged, PagedHandle};
 pub use picture::{
     Codes, decode_png, encode_exr, encode_exr_values, encode_png, encode_png_grey, encode_png_values, linear_to_srgb8,

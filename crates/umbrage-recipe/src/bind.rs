@@ -10,13 +10,18 @@ use umbrage_sample::{
     AnyPattern, Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Tent, Uniform,
 };
 use umbrage_shadow::{
-    Around, Conditional, DualPlane, Filter, FilteredDepth, IntegerFirst, Pcf, Shadow, ShadowMap, Soft, Williams,
+    Around, Conditional, Filter, FilteredDepth, IntegerFirst, Pcf, Shadow, ShadowMap, Soft, Williams,
 };
 
+/// Puts a filter over a map in the storage that is asked for. A filter expects no surface in particular; a [`Recipe`](crate::Recipe) does.
+pub fn bind<F: Filter + 'static>(filter: F, map: impl Into<Map>, storage: Storage) -> Box<dyn Shadow> {
+    Box::new(ShadowMap { filter, map: map.into().kept(storage) })
+}
+
 /// A filter over the maps around one light; a single map needs none beside it.
-pub(crate) fn around(filter: DualPlane, mut maps: Vec<Map>) -> Result<Box<dyn Shadow>, RecipeError> {
+fn over<F: Filter + 'static>(filter: F, mut maps: Vec<Map>) -> Result<Box<dyn Shadow>, RecipeError> {
     match (maps.len(), maps.pop()) {
-        (1, Some(map)) => Ok(over(filter, map)),
+        (1, Some(map)) => Ok(Box::new(ShadowMap { filter, map })),
         (_, last) => {
             maps.extend(last);
             let around = Around::new(filter, maps);
@@ -25,25 +30,16 @@ pub(crate) fn around(filter: DualPlane, mut maps: Vec<Map>) -> Result<Box<dyn Sh
     }
 }
 
-/// Puts a filter over a map in the storage that is asked for. A filter expects no surface in particular; a [`Recipe`](crate::Recipe) does.
-pub fn bind<F: Filter + 'static>(filter: F, map: impl Into<Map>, storage: Storage) -> Box<dyn Shadow> {
-    over(filter, map.into().kept(storage))
-}
-
-fn over<F: Filter + 'static>(filter: F, map: Map) -> Box<dyn Shadow> {
-    Box::new(ShadowMap { filter, map })
-}
-
 impl Values {
-    /// The filter of a preset with these values.
-    pub fn bind(&self, preset: PresetName, map: Map) -> Box<dyn Shadow> {
+    /// The filter of a preset with these values, over one map or the maps around one light. Over one map it cannot fail.
+    pub fn bind(&self, preset: PresetName, maps: Vec<Map>) -> Result<Box<dyn Shadow>, RecipeError> {
         match preset {
-            PresetName::Auto => over(self.dual, map),
+            PresetName::Auto => over(self.dual, maps),
             PresetName::Williams78 => {
                 let filter = Williams::default().with_bias(self.biased.low).with_lookup(self.lookup);
-                over(filter.with_dither(self.dither), map)
+                over(filter.with_dither(self.dither), maps)
             }
-            PresetName::Reeves87 | PresetName::Reeves87Recommended | PresetName::Woo92 => self.closer_over(map),
+            PresetName::Reeves87 | PresetName::Reeves87Recommended | PresetName::Woo92 => self.closer_over(maps),
             PresetName::WangMolnar94 => {
                 let filter = Conditional::default()
                     .with_pattern(self.pattern())
@@ -53,7 +49,7 @@ impl Values {
                     .with_min_cos(self.min_cos)
                     .with_when(self.when)
                     .with_dark_backs(self.dark_backs);
-                over(filter, map)
+                over(filter, maps)
             }
             PresetName::Burley | PresetName::Fernando => {
                 let filter = Soft::default()
@@ -65,22 +61,22 @@ impl Values {
                     .with_radius_gamma(self.shape)
                     .with_opacity(self.opacity)
                     .with_rescue(self.rescue);
-                over(filter, map)
+                over(filter, maps)
             }
             PresetName::Ordinary => {
                 let filter = FilteredDepth::default().with_bias(self.biased.low).with_res_factor(self.res_factor);
-                over(filter, map)
+                over(filter, maps)
             }
         }
     }
 
-    fn closer_over(&self, map: Map) -> Box<dyn Shadow> {
+    fn closer_over(&self, maps: Vec<Map>) -> Result<Box<dyn Shadow>, RecipeError> {
         if self.integer_first {
             let filter = IntegerFirst::default().with_pattern(self.jittered).with_unit(self.unit);
-            return over(filter.with_res_factor(self.res_factor).with_min_size(self.min_size), map);
+            return over(filter.with_res_factor(self.res_factor).with_min_size(self.min_size), maps);
         }
         let filter = Pcf::default().with_pattern(self.pattern()).with_depth(self.compared());
-        over(filter.with_res_factor(self.res_factor).with_min_size(self.min_size), map)
+        over(filter.with_res_factor(self.res_factor).with_min_size(self.min_size), maps)
     }
 
     fn pattern(&self) -> AnyPattern {

@@ -1,6 +1,5 @@
 //! A light's shadow by a recipe: the views that it wants maps of, the maps, and the algorithm over them.
 
-use crate::bind::around;
 use crate::values::{Values, Window};
 use crate::{PresetName, Recipe, RecipeError};
 use std::cell::Cell;
@@ -269,7 +268,7 @@ impl Made<'_> {
                 made.stats += Stats { given: stats.given - left_out, zero_area: stats.zero_area - left_out, ..stats };
                 maps.push(made.kept(map));
             }
-            around(recipe.values.dual, maps)
+            recipe.values.bind(PresetName::Auto, maps)
         };
         let opaque = pass(self, self.recipe, false)?;
         if !passing.get() {

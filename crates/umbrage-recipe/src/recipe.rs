@@ -152,7 +152,21 @@ impl Recipe {
     /// # Errors
     /// When the map records another surface than the recipe [expects](Self::expects): the comparison would be wrong all over, without a word.
     pub fn bind(&self, map: impl Into<Map>, storage: Storage) -> Result<Box<dyn Shadow>, RecipeError> {
-        let map = map.into();
+        self.bind_around(vec![map.into()], storage)
+    }
+
+    /// The algorithm over maps that stand around one light and see each another part, such as those of [`umbrage_plane::cube_views`]. Each point
+    /// is asked of the map whose axis is nearest to its direction, and regions cross from one map to the next. A single map is as in [`bind`](Self::bind).
+    ///
+    /// # Errors
+    /// As [`bind`](Self::bind) for any of the maps; also for none, and for views that do not stand around one light.
+    pub fn bind_around(&self, maps: Vec<Map>, storage: Storage) -> Result<Box<dyn Shadow>, RecipeError> {
+        maps.iter().try_for_each(|map| self.check(map))?;
+        self.values.bind(self.preset, maps.into_iter().map(|map| map.kept(storage)).collect())
+    }
+
+    /// Whether a map records what the recipe expects.
+    fn check(&self, map: &Map) -> Result<(), RecipeError> {
         if self.preset == PresetName::Auto && map.facets().is_none() {
             let expected = "a map of facets, as auto bakes it (bind_any takes any map)";
             return Err(RecipeError::value("map", map.stored().name(), expected));
@@ -163,7 +177,7 @@ impl Recipe {
         }
         let (expected, found) = (self.expects(), map.stored());
         if expected.contains(&found) {
-            return Ok(self.bind_any(map, storage));
+            return Ok(());
         }
         let names = kind::either(&expected.iter().map(|stored| stored.name()).collect::<Vec<_>>());
         let by = if self.names_stored { "the recipe's stored=" } else { self.preset.name() };
@@ -172,7 +186,9 @@ impl Recipe {
     }
 
     /// The algorithm over a map, whatever the map records: for mixtures that nobody published.
+    #[expect(clippy::missing_panics_doc, reason = "a single map always fits")]
     pub fn bind_any(&self, map: impl Into<Map>, storage: Storage) -> Box<dyn Shadow> {
-        self.values.bind(self.preset, map.into().kept(storage))
+        let alone = self.values.bind(self.preset, vec![map.into().kept(storage)]);
+        alone.expect("a single map need not fit to others")
     }
 }

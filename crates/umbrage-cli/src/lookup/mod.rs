@@ -4,15 +4,16 @@ mod line;
 
 use crate::args::{Cli, LookupArgs};
 use crate::shell::Shell;
-use crate::{info, stage};
+use crate::{maps, stage};
 use anyhow::{Context, bail};
 use line::{is_header, point};
 use std::io::{BufRead, Read};
 use umbrage_depth::{DepthMap, Map, Storage, Stored};
-use umbrage_plane::SurfacePoint;
+use umbrage_io::NamedMap;
+use umbrage_plane::{Rules, SurfacePoint};
 use umbrage_recipe::{PresetName, Recipe};
 use umbrage_sample::Key;
-use umbrage_shadow::Shadow;
+use umbrage_shadow::{Bounded, Shadow};
 
 /// Points that are looked up together; their number changes no result.
 const BATCH: usize = 4096;
@@ -21,15 +22,17 @@ const BATCH: usize = 4096;
 const MOST_LINE: u64 = 4096;
 
 pub fn run(cli: &Cli, args: &LookupArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {
-    let map = info::read(&args.map, cli.max_memory)?;
+    let path = &args.maps.map;
+    let maps = maps::of_one_light(maps::read(&args.maps, cli.max_memory, shell)?, path)?;
     let recipe = if let Some(text) = &args.recipe {
-        stage::recipe(text, map.view().size().max_element())?
+        let side = maps.iter().map(|named| named.map.view().size().max_element()).max();
+        stage::recipe(text, side.unwrap_or(0))?
     } else {
-        let (recipe, why) = own(&map);
+        let (recipe, why) = own(&maps[0].map);
         shell.note(&format!("recipe: {recipe} ({why})"));
         recipe
     };
-    let shadow = recipe.bind(map, Storage::Tiled).with_context(|| args.map.display().to_string())?;
+    let shadow = over(&recipe, maps).with_context(|| path.display().to_string())?;
     let mut batch = Batch { shadow: &*shadow, key: Key::new(cli.seed, 0, 0), points: Vec::new(), lines: Vec::new() };
     let (mut number, mut text) = (0u64, Vec::new());
     loop {
@@ -64,6 +67,18 @@ pub fn run(cli: &Cli, args: &LookupArgs, shell: &mut Shell<'_>) -> anyhow::Resul
         }
     }
     batch.finish(shell)
+}
+
+/// The algorithm over the maps of a light, and over the cone that it has beside them.
+fn over(recipe: &Recipe, maps: Vec<NamedMap>) -> anyhow::Result<Box<dyn Shadow>> {
+    let (view, cone) = (*maps[0].map.view(), maps[0].light_cone.filter(|_| maps.len() > 1));
+    let maps = maps.into_iter().map(|named| named.map).collect();
+    let shadow = recipe.bind_around(maps, Storage::Tiled)?;
+    if cone.is_none() {
+        return Ok(shadow);
+    }
+    let view = view.with_rules(Rules::SPOT).with_cone(cone)?;
+    Ok(Box::new(Bounded { view, by_cone: true, shadow }))
 }
 
 /// The recipe that a map was made for, and how that is known.

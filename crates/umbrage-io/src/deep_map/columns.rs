@@ -1,4 +1,5 @@
 use crate::error::Fault;
+use crate::shadow_map::place;
 use exr::meta::header::Header;
 use exr::prelude::{SampleType, f16};
 
@@ -24,15 +25,21 @@ pub(super) enum Light {
 #[derive(Debug)]
 pub(super) struct Columns {
     pub(super) depth: Column,
+    /// The depth at which a sample ends, where it is no surface.
+    pub(super) back: Option<Column>,
     pub(super) light: Light,
     /// Bytes of one sample of all channels.
     pub(super) stride: usize,
 }
 
 impl Columns {
-    pub(super) fn of(header: &Header) -> Result<Self, Fault> {
+    /// Those of a header; `wanted` is what the channel of depths is called, in whose layer the others stand.
+    pub(super) fn of(header: &Header, wanted: Option<&str>) -> Result<Self, Fault> {
         let channels = &header.channels.list;
-        let find = |name: &str| {
+        let depth = place(header, wanted).map(|index| channels[index].name.to_string());
+        let layer = depth.as_deref().and_then(|name| name.rsplit_once('.')).map(|(layer, _)| format!("{layer}."));
+        let layer = layer.unwrap_or_default();
+        let column = |name: &str| {
             let at = channels.iter().position(|channel| channel.name.as_slice() == name.as_bytes())?;
             let start = channels[..at].iter().map(|channel| channel.sample_type.bytes_per_sample()).sum();
             let kind = channels[at].sample_type;
@@ -40,20 +47,30 @@ impl Columns {
             let whole = || Fault::new(format!("channel {name}"), "of whole numbers", "not of floats");
             Some(if kind == SampleType::U32 { Err(whole()) } else { Ok(column) })
         };
-        let find = |name: &str| find(name).transpose();
+        let column = |name: &str| column(name).transpose();
+        let find = |name: &str| column(&format!("{layer}{name}"));
         let all = |names: [&str; 3]| {
             let [a, b, c] = names.map(find);
             Ok::<_, Fault>(a?.zip(b?).zip(c?).map(|((a, b), c)| [a, b, c]))
         };
         let listed = || channels.iter().map(|channel| channel.name.to_string()).collect::<Vec<_>>().join(", ");
         let missing = |problem: &str| Fault::new("channels", listed(), problem);
-        let depth = find("Z")?.ok_or_else(|| missing("no Z, the depth of a sample"))?;
-        if depth.half {
-            return Err(Fault::new("channel Z", "F16", "not 32-bit float"));
+        let no_depth = || missing(&format!("no {}, the depth of a sample", wanted.unwrap_or("Z")));
+        let depth = depth.as_deref().map(column).transpose()?.flatten().ok_or_else(no_depth)?;
+        let back = find("ZBack")?;
+        if let Some(half) = std::iter::once(&depth).chain(&back).find(|column| column.half) {
+            return Err(Fault::new(format!("channel {}", half.name), "F16", "not 32-bit float"));
         }
         let grey = |name: &str| Ok::<_, Fault>(find(name)?.map(|column| [(); 3].map(|()| column.clone())));
         let passes = all(["passes.R", "passes.G", "passes.B"])?.or(grey("passes.Y")?);
         let light = if let Some(passes) = passes {
+            if back.is_some() {
+                return Err(Fault::new(
+                    "channels",
+                    listed(),
+                    "ZBack does not go with those named passes, which are of surfaces",
+                ));
+            }
             let [mean, red, green, blue] = ["A", "AR", "AG", "AB"].map(find);
             Light::Passes(passes, [mean?, red?, green?, blue?])
         } else {
@@ -61,7 +78,7 @@ impl Columns {
             Light::Opacity(opacity.ok_or_else(|| missing("neither A nor AR, AG, AB, the opacity of a sample"))?)
         };
         let stride = channels.iter().map(|channel| channel.sample_type.bytes_per_sample()).sum();
-        Ok(Self { depth, light, stride })
+        Ok(Self { depth, back, light, stride })
     }
 }
 

@@ -20,13 +20,19 @@ mod content;
 mod opacity;
 mod packing;
 mod read;
+mod volumes;
 mod write;
 
 use crate::error::{Fault, IoError};
 use crate::file::read_bytes;
+use crate::map_options::MapOptions;
+use crate::shadow_map::{About, Parts, encode_parts, only};
 use crate::write_file::write_bytes;
 use std::path::Path;
 use umbrage_depth::DeepMap;
+
+pub(crate) use read::deep;
+pub(crate) use write::deep_part;
 
 /// Most texels, and most steps of all texels together, that [`read_deep_map`] takes: 67,108,864, which is 1 GiB of steps.
 pub const DEFAULT_DEEP_BUDGET: u64 = 1 << 26;
@@ -36,7 +42,7 @@ pub const DEFAULT_DEEP_BUDGET: u64 = 1 << 26;
 /// # Errors
 /// A [`Fault`] when a row of texels takes more than 1 GiB.
 pub fn encode_deep_map(map: &DeepMap) -> Result<Vec<u8>, Fault> {
-    write::encode(map)
+    encode_parts(&[deep_part(map, About::only(map))?])
 }
 
 /// Writes a deep map's file, as a whole or not at all.
@@ -49,9 +55,11 @@ pub fn write_deep_map(path: &Path, map: &DeepMap) -> Result<(), IoError> {
 
 /// Reads a deep map: view, bound and steps equal those that were written bit for bit (B06-11).
 ///
-/// Files of other makers are taken when they have one part `deepscanline` with a channel `Z` of 32-bit floats, `A` or `AR`, `AG`, `AB`,
-/// and the four attributes of a flat map. Their samples are surfaces: in any order, those at one depth together, `ZBack` not looked at.
-/// Their bound is 0 without an attribute `epsilon`. Depths of 1e30 and more count as no surface (C-5).
+/// Files of other makers are taken when one of their parts is `deepscanline` with a channel `Z` of 32-bit floats, `A` or `AR`, `AG`, `AB`,
+/// and has the four attributes of a flat map. Their samples come in any order; those at one depth are one surface. Depths of 1e30 and more
+/// count as no surface (C-5). A sample whose `ZBack` lies behind its `Z` is a volume, which lets (1 − A)^f of the light through at the
+/// fraction f of its thickness, as OpenEXR has it; volumes that overlap dim one another. A map keeps steps: those of a volume are never
+/// farther from that than 2⁻¹¹. The bound of a map is the larger one of this, if it has volumes, and its attribute `epsilon`, 0 without one.
 ///
 /// # Errors
 /// [`IoError`]: one line with the file, the field and its value, when the system refuses or the file is damaged, hostile, too large
@@ -76,5 +84,7 @@ pub fn read_deep_map_within(path: &Path, most_steps: u64) -> Result<DeepMap, IoE
 /// # Errors
 /// A [`Fault`], when the bytes are no deep map of that size.
 pub fn decode_deep_map(bytes: &[u8], most_steps: u64) -> Result<DeepMap, Fault> {
-    read::decode(bytes, most_steps)
+    let parts = Parts::read(bytes, bytes.len() as u64, u64::MAX)?;
+    let map = only(&parts)?;
+    deep(&parts, map.part, bytes, &MapOptions::default().with_most_texels(most_steps)).map(|(map, _)| map)
 }

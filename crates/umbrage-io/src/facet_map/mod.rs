@@ -3,7 +3,7 @@
 //! Such a file has two parts. The first is what the file of a flat map holds, header and blocks alike: a program that reads shadow maps
 //! finds the map's depths there.
 //!
-//! The second part is named `facets`: scan lines, ZIP, one channel `facets` of 32-bit whole numbers (`UINT`). Its data window begins at
+//! The second part is named `facets`, in a file of several maps `NAME.facets` beside the part `NAME` of the depths: scan lines, ZIP, one channel `facets` of 32-bit whole numbers (`UINT`). Its data window begins at
 //! (0, 0) and is 1024 wide in files of ours; readers take any width up to 32,768. Its rows, from the top, are one stream of words, which the
 //! part's `comments` describe in lines of `name=value`:
 //!
@@ -28,7 +28,10 @@ mod text;
 
 use crate::error::{Fault, IoError};
 use crate::file::read_bytes;
-use crate::shadow_map::{Preface, WordPart, Words, check_digest, depths, encode, in_part};
+use crate::shadow_map::{
+    About, FACETS, Found, Part, Parts, Preface, WordPart, check_digest, depths, encode_parts, flat, only, part,
+    words_part,
+};
 use crate::write_file::write_bytes;
 use std::path::Path;
 use text::Description;
@@ -50,14 +53,23 @@ const LEAST_WORDS: u64 = 1 << 20;
 /// A [`Fault`] when the map could not be read again: its `fine` is above 8, it has more than 256 slots, or its tiles were made for
 /// another map. Baked maps can always be read again.
 pub fn encode_facet_map(map: &FacetMap) -> Result<Vec<u8>, Fault> {
-    let (view, stored, fine, slots) = (map.view(), map.stored(), map.fine(), map.slots());
-    let words = map.to_words();
-    let again = FacetMap::from_words(*view, stored, fine, slots, &words).map_err(fault)?;
-    if again != *map {
-        return Err(in_part(Fault::new("tiles", "other ones", "read again they are not the map's")));
-    }
-    let comments = Description::of(view, stored, fine, slots, &words).text();
-    encode(map, Some(&Words { comments, words: &words }))
+    encode_parts(&facet_parts(map, About::only(map), FACETS)?)
+}
+
+/// A map's part of depths, and that of its facets, which is called `words`.
+pub(crate) fn facet_parts<'a>(map: &'a FacetMap, about: About<'a>, words: &str) -> Result<[Part<'a>; 2], Fault> {
+    let of_words = || {
+        let (head, fine, slots) = (about.head(map), map.fine(), map.slots());
+        let all = map.to_words();
+        let again = FacetMap::from_words(*map.view(), map.stored(), fine, slots, &all).map_err(fault)?;
+        if again != *map {
+            return Err(Fault::new("tiles", "other ones", "read again they are not the map's"));
+        }
+        let comments = Description::of(head, fine, slots, &all).text();
+        words_part(words, &comments, all, about.display)
+    };
+    let of_words = of_words().map_err(|fault| fault.in_part(words))?;
+    Ok([part(map, about)?, of_words])
 }
 
 /// Writes the file of a map of facets, as a whole or not at all. Programs that read shadow maps find the map's depths in it, and so do
@@ -94,22 +106,20 @@ pub fn read_facet_map_within(path: &Path, most_texels: u64) -> Result<FacetMap, 
 /// # Errors
 /// A [`Fault`], when the bytes are no map of facets of that size.
 pub fn decode_facet_map(bytes: &[u8], most_texels: u64) -> Result<FacetMap, Fault> {
-    let file = Preface::read(bytes, bytes.len() as u64, most_texels, u64::MAX)?;
-    let part = file.words.as_ref().ok_or_else(|| Fault::new("parts", 1, "a map of facets has them in a second one"))?;
+    let parts = Parts::read(bytes, bytes.len() as u64, u64::MAX)?;
+    let found = only(&parts)?;
+    facets(&flat(&parts, found.part, None, None, most_texels, None)?, &found, bytes, most_texels)
+}
+
+/// The map of a part and that of its facets.
+pub(crate) fn facets(file: &Preface<'_>, found: &Found, bytes: &[u8], most_texels: u64) -> Result<FacetMap, Fault> {
+    let part = found.words.ok_or_else(|| Fault::new("parts", 1, "a map of facets has them in a second one"))?;
     if file.digest.is_none() {
         return Err(Fault::new("comments", "no view", "facets need it in full precision"));
     }
-    let depths = depths(&file, bytes)?;
-    let comments = WordPart::comments(&file.meta);
-    let described = Description::parse(comments.as_deref()).map_err(in_part)?;
-    let all = part.read(&file.meta, bytes, most_words(most_texels))?;
-    let words = all.get(..described.words).ok_or_else(|| {
-        in_part(Fault::new("comments: words", described.words, format!("there are only {}", all.len())))
-    })?;
-    let Description { fine, slots, digest, .. } = described;
-    let found = Description::of(&file.view, file.stored, fine, slots, words);
-    check_digest(Some(digest), found.digest).map_err(in_part)?;
-    let map = FacetMap::from_words(file.view, file.stored, fine, slots, words).map_err(fault)?;
+    let depths = depths(file, bytes)?;
+    let map = of_words(file, part, bytes, most_words(most_texels));
+    let map = map.map_err(|fault| fault.in_part(&file.parts.name(part)))?;
     for (texel, depth) in TexelRect::of_size(file.view.size()).texels().zip(depths) {
         let own = map.depth(texel);
         if own.to_bits() != depth.to_bits() {
@@ -120,11 +130,25 @@ pub fn decode_facet_map(bytes: &[u8], most_texels: u64) -> Result<FacetMap, Faul
     Ok(map)
 }
 
+/// The map by its words alone, of which there may be so many.
+fn of_words(file: &Preface<'_>, part: usize, bytes: &[u8], most: u64) -> Result<FacetMap, Fault> {
+    let part = WordPart::new(file.parts, part)?;
+    let comments = part.comments();
+    let described = Description::parse(comments.as_deref())?;
+    let all = part.read(bytes, most)?;
+    let words = all
+        .get(..described.words)
+        .ok_or_else(|| Fault::new("comments: words", described.words, format!("there are only {}", all.len())))?;
+    let Description { fine, slots, digest, .. } = described;
+    check_digest(Some(digest), Description::of(file.head(), fine, slots, words).digest)?;
+    FacetMap::from_words(file.view, file.stored, fine, slots, words).map_err(fault)
+}
+
 fn most_words(most_texels: u64) -> u64 {
     most_texels.saturating_mul(WORDS_PER_TEXEL).max(LEAST_WORDS)
 }
 
 /// A fault of words as one of the file.
 fn fault(error: FacetWordsError) -> Fault {
-    in_part(Fault::new(error.field, error.value, error.problem))
+    Fault::new(error.field, error.value, error.problem)
 }

@@ -1,10 +1,8 @@
 use crate::error::Fault;
-use crate::shadow_map::{digest, value};
-use umbrage_depth::Stored;
-use umbrage_plane::View;
+use crate::shadow_map::{FACETS_SIGNATURE, Head, digest, value};
 
-/// The first line of the text.
-const SIGNATURE: &str = "umbrage facets 1";
+/// What follows the signature in the first line of the text.
+const VERSION: &str = " 1";
 
 /// What the part of the facets says of its words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,28 +13,29 @@ pub(super) struct Description {
     pub slots: u32,
     /// How many of the part's words are the map's; behind them its last row is filled up.
     pub words: usize,
-    /// Of all this, the words, view and stored surface.
+    /// Of all this, the words and what the part of the depths says before its own.
     pub digest: u64,
 }
 
 impl Description {
-    pub fn of(view: &View, stored: Stored, fine: u32, slots: u32, words: &[u32]) -> Self {
-        let digest = digest(view, stored, [fine, slots].iter().chain(words).copied());
+    pub fn of(head: Head<'_>, fine: u32, slots: u32, words: &[u32]) -> Self {
+        let digest = digest(head, [fine, slots].iter().chain(words).copied());
         Self { fine, slots, words: words.len(), digest }
     }
 
     /// As lines of `name=value`.
     pub fn text(self) -> String {
         let Self { fine, slots, words, digest } = self;
-        format!("{SIGNATURE}\nfine={fine}\nslots={slots}\nwords={words}\ndigest={digest:016x}\n")
+        format!("{FACETS_SIGNATURE}{VERSION}\nfine={fine}\nslots={slots}\nwords={words}\ndigest={digest:016x}\n")
     }
 
     /// From such lines.
     pub fn parse(text: Option<&str>) -> Result<Self, Fault> {
-        let lines = text.and_then(|text| text.strip_prefix(SIGNATURE)?.strip_prefix('\n'));
+        let signature = format!("{FACETS_SIGNATURE}{VERSION}");
+        let lines = text.and_then(|text| text.strip_prefix(&signature)?.strip_prefix('\n'));
         let lines = lines.ok_or_else(|| {
             let first = text.and_then(|text| text.lines().next()).unwrap_or("missing");
-            Fault::new("comments", first, format!("does not begin with {SIGNATURE:?}"))
+            Fault::new("comments", first, format!("does not begin with {signature:?}"))
         })?;
         Ok(Self {
             fine: line(lines, "fine", |value| value.parse().ok())?,

@@ -1,7 +1,7 @@
 use super::lru::Lru;
 use crate::error::{Fault, IoError};
 use crate::file::open_regular;
-use crate::shadow_map::{Layout, Nearest, Preface};
+use crate::shadow_map::{Layout, Nearest, Parts, Preface, flat, only};
 use exr::meta::MetaData;
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
@@ -46,9 +46,11 @@ impl Pager {
             return Err(Fault::new("pages", pages, "one must be kept at least").in_file(path));
         }
         let (file, length) = open_regular(path)?;
-        let preface = Preface::read(BufReader::new(&file), length, u64::MAX, MOST_TILES);
-        let Preface { meta, view, stored, digest, layout, seen, offsets, .. } =
-            preface.map_err(|fault| fault.in_file(path))?;
+        let parts = Parts::read(BufReader::new(&file), length, MOST_TILES).map_err(|fault| fault.in_file(path))?;
+        let preface = only(&parts).and_then(|map| flat(&parts, map.part, None, None, u64::MAX, None));
+        let preface = preface.map_err(|fault| fault.in_file(path))?;
+        let offsets = preface.offsets().to_vec();
+        let Preface { view, stored, digest, layout, seen, .. } = preface;
         if !layout.is_tiled() {
             return Err(Fault::new("tiles", "missing", "scan lines cannot be paged").in_file(path));
         }
@@ -56,7 +58,7 @@ impl Pager {
             path: path.to_path_buf(),
             file: Mutex::new(file),
             length,
-            meta,
+            meta: parts.meta,
             pages: Mutex::new(Lru::new(layout.count(), pages)),
             layout,
             seen,

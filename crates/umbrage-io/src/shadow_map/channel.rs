@@ -17,19 +17,14 @@ impl Channel {
     /// The one channel of a part whose samples take four bytes.
     pub const ONLY: Self = Self { before: 0, texel: 4, half: false };
 
-    /// The depths of a header: the channel `Z`, or the only one whose name ends in `.Z`, as floats of 16 or 32 bits.
-    pub fn of_depths(header: &Header) -> Result<Self, Fault> {
+    /// The depths of a header, as floats of 16 or 32 bits: the channel `wanted`, or else `Z`, or the only one whose name ends in `.Z`.
+    pub fn of_depths(header: &Header, wanted: Option<&str>) -> Result<Self, Fault> {
         let channels = &header.channels.list;
-        let named = |ending: fn(&str) -> bool| {
-            let mut fitting = channels.iter().enumerate().filter(|(_, channel)| ending(&channel.name.to_string()));
-            fitting.next().filter(|_| fitting.next().is_none())
-        };
-        let found = named(|name| name == "Z")
-            .or_else(|| named(|name| name.rsplit_once('.').is_some_and(|(_, last)| last == "Z")));
-        let Some((index, depths)) = found else {
+        let Some(index) = place(header, wanted) else {
             let names = channels.iter().map(|channel| channel.name.to_string()).collect::<Vec<_>>().join(", ");
-            return Err(Fault::new("channels", names, "no channel Z among them"));
+            return Err(Fault::new("channels", names, format!("no channel {} among them", wanted.unwrap_or("Z"))));
         };
+        let depths = &channels[index];
         let field = format!("channel {}", depths.name);
         if depths.sample_type == SampleType::U32 {
             return Err(Fault::new(field, "U32", "not of floats"));
@@ -69,5 +64,19 @@ impl Channel {
             samples.as_chunks::<2>().0.iter().flat_map(wide).collect()
         };
         block.chunks_exact(width * self.texel).flat_map(row).collect()
+    }
+}
+
+/// Which of a header's channels holds the depths, flat or deep: the one called `wanted`, or else `Z`, or the only one whose name ends in `.Z`.
+pub(crate) fn place(header: &Header, wanted: Option<&str>) -> Option<usize> {
+    let named = |fits: &dyn Fn(&str) -> bool| {
+        let channels = header.channels.list.iter().enumerate();
+        let mut fitting = channels.filter(|(_, channel)| fits(&channel.name.to_string()));
+        fitting.next().filter(|_| fitting.next().is_none()).map(|(index, _)| index)
+    };
+    let layered = |name: &str| name.rsplit_once('.').is_some_and(|(_, last)| last == "Z");
+    match wanted {
+        Some(wanted) => named(&|name| name == wanted),
+        None => named(&|name| name == "Z").or_else(|| named(&layered)),
     }
 }

@@ -5,7 +5,7 @@ use exr::block::chunk::{Chunk, CompressedBlock, CompressedScanLineBlock, Compres
 use exr::meta::attribute::LevelMode;
 use exr::meta::header::Header;
 use exr::meta::{BlockDescription, MetaData};
-use exr::prelude::{Compression, Vec2};
+use exr::prelude::{Compression, IntegerBounds, Vec2};
 use glam::{IVec2, UVec2};
 use umbrage_plane::TexelRect;
 
@@ -15,16 +15,43 @@ pub(crate) const MOST_BYTES_PER_BYTE: usize = 1100;
 /// Most bytes before a block's packed samples: its part, its coordinates, its level, its length.
 const BLOCK_HEAD: usize = 24;
 
-/// What is packed without loss, by coders that are known to bear hostile bytes.
-pub(super) fn check_packing(header: &Header) -> Result<(), Fault> {
-    match header.compression {
+/// Refuses what is not packed without loss by coders that are known to bear hostile bytes. Where there are `notes`, two lossy ones are noted
+/// and taken too.
+pub(super) fn check_packing(header: &Header, notes: Option<&mut Vec<Fault>>) -> Result<(), Fault> {
+    let (lossy, name) = match header.compression {
         Compression::Uncompressed | Compression::RLE | Compression::ZIP1 | Compression::ZIP16 | Compression::PIZ => {
+            return Ok(());
+        }
+        Compression::PXR24 => (true, "PXR24"),
+        Compression::B44 => (true, "B44"),
+        Compression::B44A => (true, "B44A"),
+        Compression::DWAA(_) => (false, "DWAA"),
+        Compression::DWAB(_) => (false, "DWAB"),
+        Compression::HTJ2K32 | Compression::HTJ2K256 => (false, "HTJ2K"),
+    };
+    match notes {
+        Some(notes) if lossy => {
+            let problem = "a lossy packing: depths may be off by more than a bias that fits the map allows";
+            notes.push(Fault::new("compression", name, problem));
             Ok(())
         }
-        lossy_or_rare => {
-            let problem = "maps are read from none, RLE, ZIPS, ZIP and PIZ only, which keep every bit";
-            Err(Fault::new("compression", lossy_or_rare, problem))
+        Some(_) => {
+            Err(Fault::new("compression", name, "maps are read from none, RLE, ZIPS, ZIP, PIZ, PXR24 and B44 only"))
         }
+        None => {
+            let problem = "maps are read from none, RLE, ZIPS, ZIP and PIZ only, which keep every bit";
+            Err(Fault::new("compression", name, problem))
+        }
+    }
+}
+
+/// Refuses a part of several levels.
+pub(super) fn check_levels(header: &Header) -> Result<(), Fault> {
+    match header.blocks {
+        BlockDescription::Tiles(tiles) if tiles.level_mode != LevelMode::Singular => {
+            Err(Fault::new("tiles", format!("{:?}", tiles.level_mode), "a shadow map has one level"))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -56,11 +83,9 @@ impl Layout {
         let sides = window.size();
         let (block, tiled) = match header.blocks {
             BlockDescription::ScanLines => (Vec2(sides.x as usize, header.compression.scan_lines_per_block()), false),
-            BlockDescription::Tiles(tiles) if tiles.level_mode == LevelMode::Singular => (tiles.tile_size, true),
-            BlockDescription::Tiles(tiles) => {
-                return Err(Fault::new("tiles", format!("{:?}", tiles.level_mode), "a shadow map has one level"));
-            }
+            BlockDescription::Tiles(tiles) => (tiles.tile_size, true),
         };
+        check_levels(header)?;
         let side = |length: usize| u32::try_from(length).ok().filter(|side| (1..=32_768).contains(side));
         let block = side(block.x()).zip(side(block.y())).map(UVec2::from).ok_or_else(|| {
             Fault::new("tiles", format!("{} x {}", block.x(), block.y()), "not within 1..=32768 on each side")
@@ -126,20 +151,27 @@ impl Layout {
         format!("block {}, {} at byte {offset}", cell.x, cell.y)
     }
 
+    /// A block behind its part's number, where the file has several parts.
+    pub(crate) fn unmarked<'a>(&self, block: &'a [u8], index: usize, offset: u64) -> Result<&'a [u8], Fault> {
+        let Some(part) = self.part else { return Ok(block) };
+        let broken =
+            |value: &dyn ToString, problem: &str| Fault::new(self.name(index, offset), value.to_string(), problem);
+        let (found, rest) = block.split_first_chunk::<4>().ok_or_else(|| broken(&"cut off", "part"))?;
+        let found = i32::from_le_bytes(*found);
+        if usize::try_from(found) == Ok(part) {
+            return Ok(rest);
+        }
+        Err(broken(&found, &format!("the block there should be of part {part}")))
+    }
+
     /// The wanted channel's samples of a block, decoded: four bytes for each texel. `block` holds the file from `offset` on, as far as the file goes or farther than
     /// the block does.
     pub(crate) fn samples(&self, meta: &MetaData, block: &[u8], index: usize, offset: u64) -> Result<Vec<u8>, Fault> {
         let cell = self.cell(index);
         let broken =
             |value: &dyn ToString, problem: &str| Fault::new(self.name(index, offset), value.to_string(), problem);
-        let mut words = Words { rest: block };
+        let mut words = Words { rest: self.unmarked(block, index, offset)? };
         let mut word = |what: &str| words.next().ok_or_else(|| broken(&"cut off", what));
-        if let Some(part) = self.part {
-            let found = word("part")?;
-            if usize::try_from(found) != Ok(part) {
-                return Err(broken(&found, &format!("the block there should be of part {part}")));
-            }
-        }
         let (found, expected) = if self.tiled {
             let found = [word("tile x")?, word("tile y")?, word("level x")?, word("level y")?];
             (found, [cell.x, cell.y, 0, 0])
@@ -171,6 +203,18 @@ impl Layout {
             return Err(broken(&samples.len(), &format!("should unpack to {expected} bytes")));
         }
         Ok(self.channel.of_block(samples, self.area(index).size().x as usize))
+    }
+
+    /// A block as a file has it behind its part's number, of all samples of its texels: rows of native-endian numbers.
+    pub(super) fn pack(&self, header: &Header, index: usize, samples: Vec<u8>) -> Result<Vec<u8>, String> {
+        let (cell, area) = (self.cell(index), self.area(index));
+        let (first, sides) = (area.min - self.window.min, area.size());
+        let section = IntegerBounds::new(Vec2(first.x, first.y), Vec2(sides.x as usize, sides.y as usize));
+        let packed = header.compression.compress_image_section_to_le(header, samples, section);
+        let packed = packed.map_err(|error| error.to_string())?;
+        let length = i32::try_from(packed.len()).map_err(|error| error.to_string())?;
+        let head = if self.tiled { vec![cell.x, cell.y, 0, 0, length] } else { vec![self.row(index), length] };
+        Ok(head.into_iter().flat_map(i32::to_le_bytes).chain(packed).collect())
     }
 }
 

@@ -1,5 +1,5 @@
 use crate::error::Fault;
-use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, Mat4, UVec2};
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, UVec2};
 use umbrage_plane::{Kind, Projection, View};
 
 /// How far the axes and scales in a foreign file's matrices, which are f32 and were multiplied by others, may be off. It does
@@ -18,21 +18,23 @@ fn screen_to_ndc() -> DMat4 {
     DMat4::from_translation(DVec3::new(0.5, 0.5, 0.0)) * DMat4::from_scale(DVec3::new(0.5, -0.5, 1.0))
 }
 
-/// `worldToCamera` and `worldToNDC`. OpenEXR multiplies rows from the left, so columns become rows by themselves.
-pub(crate) fn of_view(view: &View) -> [[f32; 16]; 2] {
+/// `worldToCamera` and `worldToNDC`, for a map in the upper left of a display window. OpenEXR multiplies rows from the left, so columns become
+/// rows by themselves.
+pub(crate) fn of_view(view: &View, display: UVec2) -> [[f32; 16]; 2] {
     let camera = EYE_TO_CAMERA * view.world_to_eye();
-    let ndc = screen_to_ndc() * view.world_to_screen();
+    let share = view.size().as_dvec2() / display.as_dvec2();
+    let ndc = DMat4::from_scale(share.extend(1.0)) * screen_to_ndc() * view.world_to_screen();
     [camera.as_mat4().to_cols_array(), ndc.as_mat4().to_cols_array()]
 }
 
 /// The view that a file's matrices and range describe.
 pub(crate) fn to_view(
-    world_to_camera: &[f32; 16],
-    world_to_ndc: &[f32; 16],
-    range: [Option<f32>; 2],
+    world_to_camera: &[f64; 16],
+    world_to_ndc: &[f64; 16],
+    range: [Option<f64>; 2],
     size: UVec2,
 ) -> Result<View, Fault> {
-    let camera = Mat4::from_cols_array(world_to_camera).as_dmat4();
+    let camera = DMat4::from_cols_array(world_to_camera);
     // The axes alone: how large the shift is says nothing about them.
     let rotation = DMat3::from_mat4(camera);
     let last_row = camera.row(3);
@@ -43,7 +45,7 @@ pub(crate) fn to_view(
         let problem = "not a rigid transform into a left-handed camera space";
         return Err(Fault::new("worldToCamera", format!("{world_to_camera:?}"), problem));
     }
-    let ndc = Mat4::from_cols_array(world_to_ndc).as_dmat4();
+    let ndc = DMat4::from_cols_array(world_to_ndc);
     // Some programs write what goes from -1 to 1, y up. A centred projection is one of the two only.
     let projection =
         projection(ndc, camera).or_else(|| projection(screen_to_ndc() * ndc, camera)).ok_or_else(|| {
@@ -51,7 +53,7 @@ pub(crate) fn to_view(
             Fault::new("worldToNDC", format!("{world_to_ndc:?}"), problem)
         })?;
     let (near, far) = match range {
-        [Some(near), Some(far)] => (f64::from(near), f64::from(far)),
+        [Some(near), Some(far)] => (near, far),
         [near, _] => depths_of(ndc, camera).ok_or_else(|| {
             let field = if near.is_some() { "far" } else { "near" };
             Fault::new(field, "missing", "a shadow map needs it, as worldToNDC does not map depths to 0 to 1")

@@ -8,12 +8,16 @@
 //! as `maketx --shadow` does with 0, leaves the same map: what `comments` says was not written is +∞. Tools that change depths must
 //! drop `comments` and `software`.
 //!
-//! A file may have a second part, named `facets`, which is not looked at here: the file of a map of facets is a shadow map too.
+//! A file may have a second part, named `facets`, which is not looked at here: the file of a map of facets is a shadow map too. Files of
+//! several maps are those of [`write_maps`](crate::write_maps).
 
 mod channel;
+mod file;
+mod found;
 mod layout;
 mod matrices;
 mod nearest;
+mod parts;
 mod read;
 mod text;
 mod words;
@@ -25,13 +29,16 @@ use crate::write_file::write_bytes;
 use std::path::Path;
 use umbrage_depth::{DepthMap, Raw};
 
-pub(crate) use channel::Channel;
+pub(crate) use channel::{Channel, place};
+pub(crate) use file::{Part, encode as encode_parts};
+pub(crate) use found::{Found, facets_of, found, only};
 pub(crate) use layout::{Layout, MOST_BYTES_PER_BYTE};
 pub(crate) use nearest::Nearest;
-pub(crate) use read::{Preface, check_digest, depths};
-pub(crate) use text::{digest, of_map as comments, value};
-pub(crate) use words::{WordPart, Words, in_part};
-pub(crate) use write::{attributes, channel, display, encode, stored_window};
+pub(crate) use parts::Parts;
+pub(crate) use read::{Preface, check_digest, depths, flat};
+pub(crate) use text::{Head, digest, of_map as comments, value};
+pub(crate) use words::{NAME as FACETS, SIGNATURE as FACETS_SIGNATURE, WordPart, words_part};
+pub(crate) use write::{About, encode, part, stored_window};
 
 /// Most texels that [`read_shadow_map`] takes: 16,384 × 16,384, which is 1 GiB.
 pub const DEFAULT_BUDGET: u64 = 1 << 28;
@@ -42,7 +49,7 @@ pub const DEFAULT_BUDGET: u64 = 1 << 28;
 /// # Errors
 /// A [`Fault`] when the coder refuses; no map that can be made is known to bring that about.
 pub fn encode_shadow_map(map: &impl DepthMap) -> Result<Vec<u8>, Fault> {
-    encode(map, None)
+    encode(map)
 }
 
 /// Writes a map's file, as a whole or not at all (R87-4); the depths alone, as [`encode_shadow_map`] does.
@@ -56,8 +63,8 @@ pub fn write_shadow_map(path: &Path, map: &impl DepthMap) -> Result<(), IoError>
 /// Reads a map: depths, view and stored surface equal those that were written bit for bit (R87-4). Depths of 1e30 and more count as +∞
 /// (C-5).
 ///
-/// The file of a map of facets is taken as the depths it holds. Files of other makers are taken when they have one part with a channel `Z`, or one that ends in `.Z`, of floats of 16 or 32 bits, stored without loss, and
-/// say where the light stands: `worldToCamera` (or `worldtocamera`, `Nl`), `worldToNDC` (or `worldtoscreen`, `NP`; −1 to 1 with y up is understood), and `near` and `far`, if
+/// The file of a map of facets is taken as the depths it holds. Files of other makers are taken when one of their parts has a channel `Z`, or
+/// one that ends in `.Z`, of floats of 16 or 32 bits, stored without loss, and says where the light stands: `worldToCamera` (or `worldtocamera`, `Nl`), `worldToNDC` (or `worldtoscreen`, `NP`; −1 to 1 with y up is understood), and `near` and `far`, if
 /// they do not follow from the second. Their depths are axial, their texels sampled at the centre, and what lies outside is lit.
 ///
 /// # Errors
@@ -84,8 +91,13 @@ pub fn read_shadow_map_within(path: &Path, most_texels: u64) -> Result<Raw, IoEr
 /// # Errors
 /// A [`Fault`], when the bytes are no shadow map of that size.
 pub fn decode_shadow_map(bytes: &[u8], most_texels: u64) -> Result<Raw, Fault> {
-    let file = Preface::read(bytes, bytes.len() as u64, most_texels, u64::MAX)?;
-    let depths = depths(&file, bytes)?;
-    let map = Raw::new(file.view, depths).map_err(|error| Fault::new("channel Z", "no map", error))?;
+    let parts = Parts::read(bytes, bytes.len() as u64, u64::MAX)?;
+    let map = only(&parts)?;
+    raw(&flat(&parts, map.part, None, None, most_texels, None)?, bytes)
+}
+
+/// The map of a part.
+pub(crate) fn raw(file: &Preface<'_>, bytes: &[u8]) -> Result<Raw, Fault> {
+    let map = Raw::new(file.view, depths(file, bytes)?).map_err(|error| Fault::new("channel Z", "no map", error))?;
     Ok(map.with_stored(file.stored))
 }

@@ -13,8 +13,19 @@ const FIELD: &str = "comments";
 /// What our files name as the software that made them.
 pub(crate) const SOFTWARE: &str = "umbrage";
 
-/// A view as lines of `name=value`. Numbers are the shortest decimals that give the same f64 again.
-fn of_view(view: &View, stored: Stored) -> String {
+/// What the text says of a map before its digest.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Head<'a> {
+    pub view: &'a View,
+    /// Which surface the depths belong to.
+    pub stored: Stored,
+    /// Cosine of half the angle of the light's cone, where the map is one of several that have none of their own.
+    pub light_cone: Option<f64>,
+}
+
+/// A map's head as lines of `name=value`. Numbers are the shortest decimals that give the same f64 again.
+fn of_head(head: Head<'_>) -> String {
+    let Head { view, stored, light_cone } = head;
     let numbers = |numbers: &[f64]| numbers.iter().map(|n| format!("{n:?}")).collect::<Vec<_>>().join(" ");
     let (projection, scale) = match view.projection() {
         Projection::Perspective { k, .. } => ("perspective", k),
@@ -56,6 +67,9 @@ fn of_view(view: &View, stored: Stored) -> String {
     if stored != Stored::First {
         line("stored", stored.name());
     }
+    if let Some(cos_half) = light_cone {
+        line("light_cone_cos", &numbers(&[cos_half]));
+    }
     text
 }
 
@@ -63,27 +77,28 @@ fn of_view(view: &View, stored: Stored) -> String {
 pub(crate) struct Description {
     pub view: View,
     pub stored: Stored,
+    /// As in [`Head`].
+    pub light_cone: Option<f64>,
     /// The rectangle outside of which no surface was seen, whatever a tool that padded the file has put there.
     pub window: TexelRect,
-    /// Of view, stored surface and depths; only our text has one.
+    /// Of the head and the depths; only our text has one.
     pub digest: Option<u64>,
 }
 
-/// The text of a file: the view, which surface is stored, the rectangle that is written of it unless it is the whole map, and the
-/// digest of view, surface and depths.
-pub(crate) fn of_map(view: &View, stored: Stored, window: TexelRect, depths: impl IntoIterator<Item = f32>) -> String {
+/// The text of a map: its head, the rectangle that is written of it unless it is the whole map, and the digest of head and depths.
+pub(crate) fn of_map(head: Head<'_>, window: TexelRect, depths: impl IntoIterator<Item = f32>) -> String {
     let depths = depths.into_iter().map(f32::to_bits);
     let TexelRect { min, max } = window;
-    let cropped = window != TexelRect::of_size(view.size());
+    let cropped = window != TexelRect::of_size(head.view.size());
     let window = if cropped { format!("window={} {} {} {}\n", min.x, min.y, max.x, max.y) } else { String::new() };
-    format!("{}{window}digest={:016x}\n", of_view(view, stored), digest(view, stored, depths))
+    format!("{}{window}digest={:016x}\n", of_head(head), digest(head, depths))
 }
 
-/// A number that depends on every bit of a view and its depths, or what else is kept of it in words of 32 bits (64-bit FNV-1a over
+/// A number that depends on every bit of a head and its depths, or what else is kept of it in words of 32 bits (64-bit FNV-1a over
 /// their little-endian bytes), so that a damaged file is not taken for another map. It is no seal: whoever wants to can compute it.
-pub(crate) fn digest(view: &View, stored: Stored, words: impl IntoIterator<Item = u32>) -> u64 {
+pub(crate) fn digest(head: Head<'_>, words: impl IntoIterator<Item = u32>) -> u64 {
     let fold = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3);
-    let start = of_view(view, stored).bytes().fold(0xCBF2_9CE4_8422_2325, fold);
+    let start = of_head(head).bytes().fold(0xCBF2_9CE4_8422_2325, fold);
     words.into_iter().flat_map(u32::to_le_bytes).fold(start, fold)
 }
 
@@ -117,7 +132,11 @@ fn parse(lines: &str) -> Result<Description, Fault> {
     let sides = sides.ok_or_else(|| fault("size", &size, "not two whole numbers"))?;
     let view = View::new(matrix, projection, one("near")?, one("far")?, sides)
         .map_err(|error| fault("view", "unusable", &error.to_string()))?;
-    let cone = line("cone_cos").map(|cone| numbers::<1>("cone_cos", &cone)).transpose()?.map(|[cos_half]| cos_half);
+    let cosine = |name: &str| line(name).map(|cone| numbers(name, &cone).map(|[cosine]: [f64; 1]| cosine)).transpose();
+    let (cone, light_cone) = (cosine("cone_cos")?, cosine("light_cone_cos")?);
+    // Whoever looks the map up puts the cone over its view.
+    view.with_cone(light_cone)
+        .map_err(|error| fault("light_cone_cos", &format!("{light_cone:?}"), &error.to_string()))?;
     let view = view.with_kind(kind(&need("kind")?)?).with_sampling(sampling(&need("sampling")?)?);
     let view = view.with_rules(rules(&need("rules")?)?);
     let view = view.with_cone(cone).map_err(|error| fault("cone_cos", &format!("{cone:?}"), &error.to_string()))?;
@@ -130,7 +149,7 @@ fn parse(lines: &str) -> Result<Description, Fault> {
     let window = window.map_or(TexelRect::of_size(view.size()), |[left, top, right, bottom]| {
         TexelRect::new(DVec2::new(left, top).as_ivec2(), DVec2::new(right, bottom).as_ivec2())
     });
-    Ok(Description { view, stored, window, digest: Some(number) })
+    Ok(Description { view, stored, light_cone, window, digest: Some(number) })
 }
 
 /// What a line `name=value` of a text says.

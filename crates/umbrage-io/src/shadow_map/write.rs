@@ -1,42 +1,99 @@
-use super::words::Words;
-use super::{matrices, text};
+use super::channel::Channel;
+use super::file::{self, Part, part_name};
+use super::{Layout, matrices, text};
 use crate::error::Fault;
-use exr::block::{self, BlockIndex, writer::ChunksWriter};
 use exr::meta::BlockDescription;
 use exr::meta::attribute::{LevelMode, TileDescription};
 use exr::meta::header::{Header, LayerAttributes};
 use exr::prelude::{AttributeValue, ChannelDescription, Compression, IntegerBounds, LineOrder, SampleType, Text, Vec2};
-use glam::IVec2;
-use std::io::Cursor;
+use glam::{IVec2, UVec2};
 use umbrage_depth::DepthMap;
-use umbrage_plane::{TexelRect, View};
+use umbrage_plane::TexelRect;
 
 /// Side of a tile, texels.
 const TILE: usize = 64;
 
-/// A map's file; with `words`, one of two parts.
-pub(crate) fn encode(map: &impl DepthMap, words: Option<&Words<'_>>) -> Result<Vec<u8>, Fault> {
-    let view = map.view();
-    let window = stored_window(map);
-    let texels = TexelRect::of_size(view.size()).texels();
-    let comments = text::of_map(view, map.stored(), window, texels.map(|texel| map.depth(texel)));
-    let mut bytes = Cursor::new(Vec::new());
-    let further = words.map(|words| words.header().with_display_window(display(view)));
-    let headers = std::iter::once(header(view, window, &comments)).chain(further).collect();
-    let written = block::write(&mut bytes, headers, true, |meta, writer| {
-        let mut compressor = writer.sequential_blocks_compressor(&meta);
-        let samples = |block: BlockIndex| match words {
-            Some(words) if block.layer > 0 => words.samples(block),
-            _ => samples(map, window, block),
+/// What a map is called that is the only one of its file.
+pub(crate) const ONLY: &str = "shadow";
+
+/// What a part is about, beside its map.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct About<'a> {
+    /// What it is called.
+    pub name: &'a str,
+    /// Cosine of half the angle of the light's cone, where the map is one of several that have none of their own.
+    pub light_cone: Option<f64>,
+    /// Columns and rows of the file's display window, which all parts share; the map is in its upper left.
+    pub display: UVec2,
+}
+
+impl About<'_> {
+    /// The only map of a file.
+    pub fn only(map: &impl DepthMap) -> Self {
+        Self { name: ONLY, light_cone: None, display: map.view().size() }
+    }
+
+    pub fn head(self, map: &impl DepthMap) -> text::Head<'_> {
+        text::Head { view: map.view(), stored: map.stored(), light_cone: self.light_cone }
+    }
+
+    /// A header with what every map's says of its view.
+    pub fn header(
+        self,
+        map: &impl DepthMap,
+        comments: &str,
+        window: TexelRect,
+        channels: &[&str],
+    ) -> Result<Header, Fault> {
+        let name = part_name(self.name)?;
+        let [world_to_camera, world_to_ndc] = matrices::of_view(map.view(), self.display);
+        let mut attributes = LayerAttributes {
+            layer_position: Vec2(window.min.x, window.min.y),
+            world_to_camera: Some(world_to_camera),
+            world_to_normalized_device: Some(world_to_ndc),
+            near_clip_plane: Some(map.view().near() as f32),
+            far_clip_plane: Some(map.view().far() as f32),
+            comments: Some(Text::from(comments)),
+            software_name: Some(Text::from(text::SOFTWARE)),
+            ..LayerAttributes::named(name.clone())
         };
-        for (index, block) in meta.collect_ordered_block_data(samples) {
-            compressor.compress_block(index, block)?;
-        }
-        Ok(())
-    });
-    let size = view.size();
-    written.map_err(|error| Fault::new("shadow map", format!("{} x {}", size.x, size.y), error))?;
-    Ok(bytes.into_inner())
+        // The crate keeps other attributes in a hash map: more than one would be written in a different order each time.
+        attributes.other.insert(Text::from("textureformat"), AttributeValue::Text(Text::from("Shadow")));
+        let sides = window.size();
+        let channels = channels.iter().map(|name| channel(name)).collect();
+        Ok(Header::new(name, Vec2(sides.x as usize, sides.y as usize), channels)
+            .with_attributes(attributes)
+            .with_display_window(display(self.display)))
+    }
+}
+
+/// The file of the only map.
+pub(crate) fn encode(map: &impl DepthMap) -> Result<Vec<u8>, Fault> {
+    file::encode(&[part(map, About::only(map))?])
+}
+
+/// A map's part.
+pub(crate) fn part<'a>(map: &'a impl DepthMap, about: About<'a>) -> Result<Part<'a>, Fault> {
+    let window = stored_window(map);
+    let texels = TexelRect::of_size(map.view().size()).texels();
+    let comments = text::of_map(about.head(map), window, texels.map(|texel| map.depth(texel)));
+    let tiles = TileDescription {
+        tile_size: Vec2(TILE, TILE),
+        level_mode: LevelMode::Singular,
+        rounding_mode: exr::math::RoundingMode::Down,
+    };
+    let header = about.header(map, &comments, window, &["Z"])?.with_encoding(
+        Compression::ZIP16,
+        BlockDescription::Tiles(tiles),
+        LineOrder::Increasing,
+    );
+    let layout = Layout::new(&header, None, window, Channel::ONLY)?;
+    let again = header.clone();
+    let block = move |index: usize| {
+        let depths = layout.area(index).texels().flat_map(|texel| map.depth(texel).to_ne_bytes());
+        layout.pack(&again, index, depths.collect())
+    };
+    Ok(Part { header, further: None, deep: false, block: Box::new(block) })
 }
 
 /// The smallest rectangle around the finite depths (R87-19); one texel, as EXR needs it, when there are none.
@@ -52,26 +109,8 @@ pub(crate) fn stored_window(map: &impl DepthMap) -> TexelRect {
     if window.is_empty() { one(IVec2::ZERO) } else { window }
 }
 
-/// What every map's file says of its view.
-pub(crate) fn attributes(view: &View, window: TexelRect, comments: &str) -> LayerAttributes {
-    let [world_to_camera, world_to_ndc] = matrices::of_view(view);
-    let mut attributes = LayerAttributes {
-        layer_position: Vec2(window.min.x, window.min.y),
-        world_to_camera: Some(world_to_camera),
-        world_to_normalized_device: Some(world_to_ndc),
-        near_clip_plane: Some(view.near() as f32),
-        far_clip_plane: Some(view.far() as f32),
-        comments: Some(Text::from(comments)),
-        software_name: Some(Text::from(text::SOFTWARE)),
-        ..LayerAttributes::named("shadow")
-    };
-    // The crate keeps other attributes in a hash map: more than one would be written in a different order each time.
-    attributes.other.insert(Text::from("textureformat"), AttributeValue::Text(Text::from("Shadow")));
-    attributes
-}
-
 /// A channel of floats, one a texel or deep.
-pub(crate) fn channel(name: &str) -> ChannelDescription {
+fn channel(name: &str) -> ChannelDescription {
     ChannelDescription {
         name: Text::from(name),
         sample_type: SampleType::F32,
@@ -80,28 +119,7 @@ pub(crate) fn channel(name: &str) -> ChannelDescription {
     }
 }
 
-/// The display window: the whole map.
-pub(crate) fn display(view: &View) -> IntegerBounds {
-    IntegerBounds::from_dimensions(Vec2(view.size().x as usize, view.size().y as usize))
-}
-
-fn header(view: &View, window: TexelRect, comments: &str) -> Header {
-    let sides = window.size();
-    let tiles = TileDescription {
-        tile_size: Vec2(TILE, TILE),
-        level_mode: LevelMode::Singular,
-        rounding_mode: exr::math::RoundingMode::Down,
-    };
-    let channels = std::iter::once(channel("Z")).collect();
-    Header::new(Text::from("shadow"), Vec2(sides.x as usize, sides.y as usize), channels)
-        .with_encoding(Compression::ZIP16, BlockDescription::Tiles(tiles), LineOrder::Increasing)
-        .with_attributes(attributes(view, window, comments))
-        .with_display_window(display(view))
-}
-
-/// A block's depths as the coder wants them: rows of native-endian floats.
-fn samples(map: &impl DepthMap, window: TexelRect, block: BlockIndex) -> Vec<u8> {
-    let first = window.min + IVec2::new(block.pixel_position.x() as i32, block.pixel_position.y() as i32);
-    let sides = IVec2::new(block.pixel_size.x() as i32, block.pixel_size.y() as i32);
-    TexelRect::new(first, first + sides).texels().flat_map(|texel| map.depth(texel).to_ne_bytes()).collect()
+/// A display window of so many columns and rows.
+pub(super) fn display(size: UVec2) -> IntegerBounds {
+    IntegerBounds::from_dimensions(Vec2(size.x as usize, size.y as usize))
 }

@@ -8,10 +8,12 @@ mod facets;
 mod far;
 mod files;
 mod hostile;
+mod maps;
 mod paged;
 mod paged_faults;
 mod pictures;
 mod shadow_maps;
+mod volumes;
 
 use glam::{DVec3, IVec2, UVec2};
 use std::path::PathBuf;

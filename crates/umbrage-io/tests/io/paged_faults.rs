@@ -136,10 +136,10 @@ fn r87_20_what_is_read_at_open_is_bounded() {
     let (_, bytes) = file();
     let at = value(&bytes, "comments", "string") - 4;
     let mut long = bytes[..at].to_vec();
-    long.extend((3i32 << 20).to_le_bytes());
-    long.resize(at + (3 << 20), b'#');
+    long.extend((5i32 << 20).to_le_bytes());
+    long.resize(at + (5 << 20), b'#');
     long.extend(&bytes[at..]);
-    assert!(refused("bounded", &long, 1).ends_with("header is unreadable: it passes 1048576 bytes"));
+    assert!(refused("bounded", &long, 1).ends_with("header is unreadable: it passes 4194304 bytes"));
     // The count of blocks would tell first, were it not for the misspelling.
     let mut many = bytes.clone();
     let count = value(&bytes, "chunkCount", "int") - "chunkCount_int_____".len();
