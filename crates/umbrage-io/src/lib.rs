@@ -53,14 +53,12 @@ pub use facet_map::{
     DEFAULT_FACET_BUDGET, decode_facet_map, encode_facet_map, read_facet_map, read_facet_map_within, write_facet_map,
 };
 pub use file::{create_folder, file_bytes, machine_memory, read_bytes};
-pub use map_options::{GivenView, MapOptions};
+pub use map_options::{DEFAULT_BUDGET, GivenView, MapOptions};
 pub use named::{CUBE_FACES, FACES_AHEAD, light_of};
 pub use paged::{Paged, PagedHandle};
 pub use picture::{
     Codes, decode_png, encode_exr, encode_exr_values, encode_png, encode_png_grey, encode_png_values, linear_to_srgb8,
     read_png, replicate, write_exr, write_png, write_png_grey,
 };
-pub use shadow_map::{
-    DEFAULT_BUDGET, decode_shadow_map, encode_shadow_map, read_shadow_map, read_shadow_map_within, write_shadow_map,
-};
+pub use shadow_map::{decode_shadow_map, encode_shadow_map, read_shadow_map, read_shadow_map_within, write_shadow_map};
 pub use write_file::{write_atomic, write_bytes};

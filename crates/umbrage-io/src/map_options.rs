@@ -1,10 +1,13 @@
 use umbrage_plane::Kind;
 
+/// Most texels that [`read_shadow_map`](crate::read_shadow_map) takes: 16,384 × 16,384, which is 1 GiB.
+pub const DEFAULT_BUDGET: u64 = 1 << 28;
+
 /// How much of a file is read, and how the file of another maker is understood.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MapOptions {
-    /// Most texels of all maps together; of a deep map as many steps. [`DEFAULT_BUDGET`](crate::DEFAULT_BUDGET) unless chosen.
+    /// Most texels of all maps together; of a deep map as many steps. [`DEFAULT_BUDGET`] unless chosen.
     pub most_texels: u64,
     /// Only the map of this name, or the maps of the [light](crate::light_of) of this name. All of them unless chosen.
     pub part: Option<String>,
@@ -17,7 +20,7 @@ pub struct MapOptions {
 
 impl Default for MapOptions {
     fn default() -> Self {
-        Self { most_texels: crate::DEFAULT_BUDGET, part: None, channel: None, view: None }
+        Self { most_texels: DEFAULT_BUDGET, part: None, channel: None, view: None }
     }
 }
 

@@ -25,6 +25,7 @@ mod write;
 
 use crate::error::{Fault, IoError};
 use crate::file::read_bytes;
+use crate::map_options::DEFAULT_BUDGET;
 use crate::write_file::write_bytes;
 use std::path::Path;
 use umbrage_depth::{DepthMap, Raw};
@@ -39,9 +40,6 @@ pub(crate) use read::{Preface, check_digest, depths, flat};
 pub(crate) use text::{Head, digest, of_map as comments, value};
 pub(crate) use words::{NAME as FACETS, SIGNATURE as FACETS_SIGNATURE, WordPart, words_part};
 pub(crate) use write::{About, encode, part, stored_window};
-
-/// Most texels that [`read_shadow_map`] takes: 16,384 × 16,384, which is 1 GiB.
-pub const DEFAULT_BUDGET: u64 = 1 << 28;
 
 /// A shadow map's file as bytes; the same bytes for the same map, whatever its storage. Of a deep map and of one of facets that
 /// is the depths alone: [`encode_deep_map`](crate::encode_deep_map) and [`encode_facet_map`](crate::encode_facet_map) keep the rest.

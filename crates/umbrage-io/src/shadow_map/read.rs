@@ -148,7 +148,7 @@ fn described(header: &Header, size: UVec2, given: Option<&GivenView>) -> Result<
     let attributes = &header.own_attributes;
     if let Some(found) = attributes.comments.as_ref().and_then(|comments| text::to_view(&comments.to_string())) {
         if given.is_some() {
-            return Err(Fault::new("view", "given", "the map is Umbrage's own and has one already"));
+            return Err(Fault::new("view", "given", "a map that Umbrage wrote has its own"));
         }
         return found;
     }
