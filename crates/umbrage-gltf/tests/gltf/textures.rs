@@ -69,14 +69,14 @@ fn colours_alone_cut_no_holes() {
 
 #[test]
 fn blended_textures_let_light_pass_by_their_alpha_and_the_factor_s() {
-    let base = json!({"baseColorTexture": {"index": 0}, "baseColorFactor": [1.0, 1.0, 1.0, 0.75]});
+    let base = json!({"baseColorTexture": {"index": 0}, "baseColorFactor": [1.0, 1.0, 1.0, 0.5]});
     let material = json!({"alphaMode": "BLEND", "pbrMetallicRoughness": base});
     let mut build = textured(&png(), material);
     let import = build.read().unwrap();
     let object = &import.scene.objects[0];
     let passes = |x: f64, y: f64| object.cover.passes(object.passes, DVec2::new(x, y)).x;
     let texels = [passes(0.25, 0.25), passes(0.75, 0.25), passes(0.25, 0.75)];
-    assert_eq!(texels, [0.25, 1.0 - 0.75 * 128.0 / 255.0, 1.0]);
+    assert_eq!(texels, [0.5, 1.0 - 0.5 * 128.0 / 255.0, 1.0]);
     let there = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75)].map(|(x, y)| object.cover.is_there(DVec2::new(x, y)));
     assert_eq!(there, [true, true, false], "what is quite clear is not there");
     build.document["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.0.into();
