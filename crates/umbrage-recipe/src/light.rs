@@ -87,7 +87,7 @@ impl fmt::Debug for LightShadow {
 
 impl Recipe {
     /// All of pass 1 of a light, and the algorithm over it: a map for each view that the recipe wants. `views` are the light's own view, or several that stand
-    /// at one place and see each another part ([`umbrage_plane::cube_views`]), which `auto` alone can cross. `casters` gives the triangles for a view at one of the moments; it
+    /// at one place and see each another part ([`umbrage_plane::cube_views`]), across whose borders filters go on. `casters` gives the triangles for a view at one of the moments; it
     /// is asked for each map, and again where some of them let light pass.
     ///
     /// `auto` makes of it what the light is:
@@ -97,7 +97,7 @@ impl Recipe {
     /// * over several moments, the mean of maps of each;
     /// * casters that let light pass are kept in a deep map, the others in a map of facets, and light passes [through both](Through).
     ///
-    /// Other recipes make one map of one view, in which moments are mixed ([`Recipe::bake_moments`]).
+    /// Other recipes make one map for each view, in which moments are mixed ([`Recipe::bake_moments`]).
     ///
     /// ```
     /// use glam::{DVec3, UVec2, Vec3};
@@ -119,7 +119,7 @@ impl Recipe {
     /// ```
     ///
     /// # Errors
-    /// When no view, or several for another recipe than `auto`, are given; when `window=fitted` knows no receivers; when no view can stand at a point of the light;
+    /// When no view is given; when `window=fitted` knows no receivers; when no view can stand at a point of the light;
     /// and when views around one light do not belong together.
     pub fn shadow_of<'a, I>(
         &self,
@@ -136,10 +136,6 @@ impl Recipe {
         let [first, others @ ..] = views else {
             return Err(RecipeError::value("views", "none", "the view of a light"));
         };
-        if !others.is_empty() && !auto {
-            let expected = "one, unless the recipe is auto";
-            return Err(RecipeError::value("views", &views.len().to_string(), expected));
-        }
         if window == Window::Fitted && with.receivers.is_none() {
             return Err(RecipeError::value(
                 "window",
@@ -156,12 +152,14 @@ impl Recipe {
         let moments = with.moments.max(1);
         let mut made = Made { recipe: self, storage: with.storage, maps: Vec::new(), stats: Stats::default() };
         if !auto {
-            let view = fitted(*first)?;
-            let moments = (0..moments).map(|moment| casters(&view, moment));
-            let (map, stats) = self.bake_counted(&view, moments);
-            made.stats += stats;
-            let map = made.kept(map);
-            return Ok(made.finish(self.bind_any(map, with.storage)));
+            let mut maps = Vec::new();
+            for view in views {
+                let view = fitted(*view)?;
+                let (map, stats) = self.bake_counted(&view, (0..moments).map(|moment| casters(&view, moment)));
+                made.stats += stats;
+                maps.push(made.kept(map));
+            }
+            return Ok(made.finish(self.values.bind(self.preset, maps)?));
         }
         let wide = |view: &View| view.is_perspective() && view.cone().is_some_and(|cos_half| cos_half < WIDE);
         let split = others.is_empty() && wide(first);

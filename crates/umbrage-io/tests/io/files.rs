@@ -1,6 +1,6 @@
 use crate::folder;
 use std::fs;
-use std::io::{Error, Write};
+use std::io::Error;
 use umbrage_io::{IoError, write_atomic, write_bytes};
 
 fn names(folder: &std::path::Path) -> Vec<String> {

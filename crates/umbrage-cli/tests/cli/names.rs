@@ -1,6 +1,6 @@
 //! Names of files.
 
-#[path = "../src/names.rs"]
+#[path = "../../src/names.rs"]
 mod names;
 
 use names::{distinct, file, plain};

@@ -1,11 +1,9 @@
 //! Files of several maps: baked, described, and looked up.
 
-mod typed;
-
+use crate::typed::{files, folder, good, lamps, refused, run_with, text};
 use glam::UVec2;
 use serde_json::Value;
 use std::path::Path;
-use typed::{files, folder, good, lamps, refused, run_with, text};
 use umbrage_depth::{DepthMap, Storage};
 use umbrage_gltf::ReadOptions;
 use umbrage_io::{CUBE_FACES, FACES_AHEAD, MapOptions, decode_png, encode_maps, read_maps};

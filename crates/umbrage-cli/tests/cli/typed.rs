@@ -1,6 +1,7 @@
 //! Commands as a user would type them, and a scene with lamps.
 
 use std::path::{Path, PathBuf};
+use umbrage_io::decode_png;
 
 /// What a command line gave.
 pub struct Ran {
@@ -17,16 +18,20 @@ pub fn run_with(input: &str, args: &[&str]) -> Ran {
     Ran { code, out: text(out), err: text(err) }
 }
 
+pub fn run(args: &[&str]) -> Ran {
+    run_with("", args)
+}
+
 /// Runs what must succeed.
 pub fn good(args: &[&str]) -> Ran {
-    let ran = run_with("", args);
+    let ran = run(args);
     assert_eq!(ran.code, 0, "{args:?}: {}", ran.err);
     ran
 }
 
 /// The one line of a failure.
 pub fn refused(code: u8, args: &[&str]) -> String {
-    let ran = run_with("", args);
+    let ran = run(args);
     assert_eq!(ran.code, code, "{args:?}: {}", ran.err);
     assert_eq!(ran.err.lines().count(), 1, "{args:?}: {}", ran.err);
     ran.err.trim_end().to_owned()
@@ -83,4 +88,22 @@ pub fn lamps(folder: &Path) -> PathBuf {
     let path = folder.join("lamps.gltf");
     std::fs::write(&path, gltf.to_string()).expect("a file");
     path
+}
+
+/// Values of a 16-bit picture, rounded to 8 bits as the reader does.
+pub fn values(path: &Path) -> Vec<f64> {
+    let codes = decode_png(&std::fs::read(path).expect("a file")).expect("a picture");
+    codes.rgb.iter().map(|rgb| f64::from(rgb[0]) / 255.0).collect()
+}
+
+pub fn rms(a: &[f64], b: &[f64]) -> f64 {
+    let squares: f64 = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum();
+    (squares / a.len() as f64).sqrt()
+}
+
+/// A map of facets for look-ups.
+pub fn facets(name: &str) -> PathBuf {
+    let out = folder(name);
+    good(&["bake", "gallery:contact-box", "-o", text(&out), "--map-size", "64", "-q"]);
+    out.join("contact-box.exr")
 }

@@ -1,0 +1,11 @@
+//! The commands as a user would type them. One program, so that it is linked once.
+
+mod bad_luck;
+mod commands;
+mod examples;
+mod lamps;
+mod lookups;
+mod maps;
+mod names;
+mod scenes;
+mod typed;
