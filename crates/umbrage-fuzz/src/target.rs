@@ -56,7 +56,7 @@ fn recipes() -> Vec<Vec<u8>> {
         "auto",
         "reeves87,samples=16,res-factor=3,bias=0.3..0.4,min-samples=2,jitter=0.5",
         "woo92,depth=cone,pattern=disc,samples=32,ratio=0.5",
-        "burley,light=0.5,stored=midpoint,bias=1t",
+        "burley,light=0.5,stored=midpoint",
         "wang-molnar94,nearby=box3",
         "preset = 'reeves87'\nsamples = 32\nbias = '0.1..0.2'\nhard-cap = true\n",
         "samples=32, blur=0.01, bias0=0.1, bias1=0.2, swidth=2, twidth=2, depthfilter=\"midpoint\", midpointratio=0.5",

@@ -1,7 +1,8 @@
 //! What mutants and libFuzzer have found, kept.
 
 use std::ffi::OsString;
-use umbrage_fuzz::{ExrFile, flat, foreign};
+use umbrage_fuzz::{ExrFile, flat, foreign, recipe};
+use umbrage_recipe::Recipe;
 
 /// What a command says on stderr, and its code.
 fn refused(args: &[&str]) -> (u8, String) {
@@ -27,5 +28,17 @@ fn a_map_s_texels_are_counted_against_max_memory() {
             "{line}"
         );
         assert!(line.ends_with(" texels\n") && line.lines().count() == 1, "{line}");
+    }
+}
+
+/// A word that is no field was repeated as it stood, with all that it does to a terminal, and however long it was.
+#[test]
+fn what_is_no_recipe_is_one_line_whatever_stands_in_it() {
+    let refusal = |text: &str| text.parse::<Recipe>().unwrap_err().to_string();
+    assert_eq!(refusal("auto,a\0\u{1b}[31m\nb"), "a\\0\\u{1b}[31m\\nb = \"\": expected field=value");
+    assert_eq!(refusal("woo92,samples=\u{1b}"), "samples = \"\\u{1b}\": expected a whole number from 1 to 65536");
+    let long = "x".repeat(100_000);
+    for text in [&long, &format!("auto,{long}"), &format!("auto,{long}={long}"), &format!("woo92,samples={long}")] {
+        assert!(!recipe(text.as_bytes()), "holds the line's length too");
     }
 }

@@ -4,7 +4,7 @@
 pub struct RecipeError {
     /// The field; `recipe` for the preset's name, `map` for a map that records another surface.
     pub field: String,
-    /// What was written.
+    /// What was written, cut where it is longer than people read.
     pub value: String,
     /// What may be written.
     pub expected: String,
@@ -17,7 +17,10 @@ impl RecipeError {
         Self { field: format!("{owner}, {}", self.field), ..self }
     }
 
+    /// `field` and `value` may be what somebody wrote: long, or with control characters.
     pub(crate) fn value(field: &str, value: &str, expected: impl Into<String>) -> Self {
-        Self { field: field.into(), value: value.into(), expected: expected.into() }
+        const MOST: usize = 80;
+        let field = field.escape_debug().take(MOST).collect();
+        Self { field, value: value.chars().take(MOST).collect(), expected: expected.into() }
     }
 }

@@ -14,21 +14,22 @@ const MUTANTS: usize = 20_000;
 fn mutants_end_in_a_result_or_a_line_within_their_memory() {
     // Those of glTF are in `gltf_mutants`, whose scene has everything.
     for target in TARGETS.iter().filter(|target| target.name != "gltf") {
+        // Lines are read one by one, but a command begins with its options and its map, which takes longer than some lines.
+        let together = if target.name == "lookup_lines" { 4 } else { 1 };
         let seeds = (target.seeds)();
-        let start = std::time::Instant::now();
         let before = ALLOCATOR.allocated();
-        let mut read = 0;
+        let (mut read, mut count) = (0, 0);
         for (seed, file) in (1..).zip(&seeds) {
             assert!((target.takes)(file), "{}: the good file {seed}", target.name);
-            let mutants = Mutants::of(file, seed).take(MUTANTS.div_ceil(seeds.len()));
-            let t = std::time::Instant::now();
-            let r = mutants.filter(|mutant| (target.takes)(mutant)).count();
-            eprintln!("{} {seed} {} bytes {r} read {:?}", target.name, file.len(), t.elapsed());
-            read += r;
+            let mut mutants = Mutants::of(file, seed);
+            for _ in 0..MUTANTS.div_ceil(together * seeds.len()) {
+                let some: Vec<Vec<u8>> = mutants.by_ref().take(together).collect();
+                read += usize::from((target.takes)(&some.join(&b'\n')));
+                count += 1;
+            }
         }
         let most = ALLOCATOR.max_allocated() - before;
-        eprintln!("{} {:?} {read} {most}", target.name, start.elapsed());
-        assert!(read > MUTANTS / 50 && read < MUTANTS, "{}: {read} were read", target.name);
+        assert!((1..count).contains(&read), "{}: {read} of {count} were read", target.name);
         assert!(most as u64 <= most_bytes(&[]), "{}: {most} bytes", target.name);
     }
 }

@@ -81,7 +81,7 @@ fn one_file_may_be_written_by_several_at_once() {
     std::thread::scope(|scope| {
         for number in 0..4u8 {
             let path = &path;
-            scope.spawn(move || (0..50).for_each(|_| write_bytes(path, &[number; 20_000]).expect("written")));
+            scope.spawn(move || (0..50).for_each(|_| write_bytes(path, &vec![number; 20_000]).expect("written")));
         }
     });
     let bytes = fs::read(&path).expect("readable");
