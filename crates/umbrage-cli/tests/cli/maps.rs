@@ -166,7 +166,7 @@ fn a_view_is_given_to_files_that_have_none() {
         assert_eq!(looked_up("0 4.5 0 0 1 0\n0 5.5 0 0 1 0\n", &args), [1.0, 0.0]);
     }
     let told = good(&["info", text(&map), "--view", &view]).out;
-    assert!(told.contains("light at  0 10 0\n") || told.contains("light at  -0 10 -0\n"), "{told}");
+    assert!(told.contains("light     at 0 10 0\n") || told.contains("light     at -0 10 -0\n"), "{told}");
     for (given, problem) in [
         ("{", "--view: not JSON: "),
         ("{}", "--view: worldtocamera: expected an array of 16 numbers"),
