@@ -41,7 +41,7 @@ pub(crate) fn colours(
     if of_alpha && found.lanes() == 4 && ids.iter().any(|&id| found.lane(id as usize, 3) < 1.0) {
         file.note(Level::Always, format!("the alpha of {path} is not used"));
     }
-    // `max` first: it turns NaN into 0.
-    let colour = |id: &u32| Vec3::from_array(found.get(*id as usize).map(|lane| lane.max(0.0).min(1.0) as f32));
+    // `max` turns NaN into 0.
+    let colour = |id: &u32| Vec3::from_array(found.get(*id as usize).map(|lane| lane.clamp(0.0, 1.0).max(0.0) as f32));
     Ok(ids.iter().map(colour).collect())
 }

@@ -84,7 +84,7 @@ const RULES: &[Rule] = &[
     Rule {
         package: "umbrage-gltf",
         arrows: &["umbrage-scene"],
-        outside: &["base64", "glam", "image", "serde_json", "thiserror"],
+        outside: &["base64", "glam", "png", "zune-jpeg", "serde_json", "thiserror"],
         tests: &[],
     },
     Rule {

@@ -3,9 +3,9 @@
 mod bad_luck;
 mod commands;
 mod examples;
+mod file_names;
 mod lamps;
 mod lookups;
 mod maps;
-mod names;
 mod scenes;
 mod typed;
