@@ -7,6 +7,9 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
+/// The package whose program makes the figures.
+const FIGURES: &str = "umbrage-figures";
+
 /// Runs every step, goes on after one that fails, and says at the end how each went. Whether all went well.
 pub fn run(root: &Path) -> anyhow::Result<bool> {
     let settings = quick_to_compile();
@@ -14,22 +17,27 @@ pub fn run(root: &Path) -> anyhow::Result<bool> {
     let mut tests = Vec::new();
     steps.cargo("format", &["fmt", "--all", "--check"], &[])?;
     steps.cargo("lints", &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[])?;
-    steps.tests(&["test", "--workspace"], &mut tests)?;
+    steps.cargo("programs of the tests", &["test", "--workspace", "--no-run"], &[])?;
+    // Tests leave a processor idle now and then: the figures' program is compiled meanwhile. What is wrong with it, its own step says.
+    let mut ahead = steps.command(cargo(), &["build", "--quiet", "--release", "--package", FIGURES]).spawn()?;
+    steps.tests("tests", &["test", "--workspace"], &mut tests)?;
     steps.step("examples", || run_examples(root))?;
     steps.step("README's program in a package of its own", || crate::readme::run(root, &settings))?;
     // A page that links nowhere is worse than none.
     steps.cargo("documentation", &["doc", "--no-deps", "--workspace"], &[("RUSTDOCFLAGS", "-D warnings")])?;
     steps.own("tidy", &["tidy"])?;
+    ahead.wait().context(FIGURES)?;
+    steps.tests("figures' own tests", &["test", "--release", "--package", FIGURES, "--test", "figures"], &mut tests)?;
     steps.own("quick figures", &["figures", "--quick", "--out", "target/ci-figures/quick"])?;
     // The quick figures stand there already and are used again.
     steps.own("kept pictures and numbers", &["figures", "--check", "--out", "target/ci-figures"])?;
     Ok(steps.tell(&tests))
 }
 
-/// Cargo's settings under which everything is compiled that is run once: tests without debug information, and where this machine's
+/// Cargo's settings under which everything is compiled that is run once: without debug information, and where this machine's
 /// processor is of the level x86-64-v3, all for its instructions alone, which halves what is compiled of filters. Results are the same bits.
 fn quick_to_compile() -> Vec<(&'static str, &'static str)> {
-    let mut settings = vec![("CARGO_PROFILE_DEV_DEBUG", "none")];
+    let mut settings = vec![("CARGO_PROFILE_DEV_DEBUG", "none"), ("CARGO_PROFILE_RELEASE_DEBUG", "none")];
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::is_x86_feature_detected as has;
@@ -109,9 +117,9 @@ impl Steps<'_> {
     }
 
     /// The tests, printed as they come; the closing line of each program is kept in `closing`.
-    fn tests(&mut self, args: &[&str], closing: &mut Vec<String>) -> anyhow::Result<()> {
+    fn tests(&mut self, name: &'static str, args: &[&str], closing: &mut Vec<String>) -> anyhow::Result<()> {
         let mut command = self.command(cargo(), args);
-        self.step("tests", || {
+        self.step(name, || {
             let mut child = command.stdout(Stdio::piped()).spawn()?;
             if let Some(output) = child.stdout.take() {
                 for line in BufReader::new(output).lines() {

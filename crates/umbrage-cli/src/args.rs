@@ -26,6 +26,9 @@ pub struct Cli {
     /// Also say what was left alone and why
     #[arg(short, long, global = true)]
     pub verbose: bool,
+    /// When errors and help have colours: auto means on a terminal, unless NO_COLOR is set
+    #[arg(long, global = true, value_name = "WHEN", value_enum, default_value_t = clap::ColorChoice::Auto)]
+    pub color: clap::ColorChoice,
     /// Most memory that may be asked for, such as 2GiB; 4 GiB or half of what there is unless given
     #[arg(long, global = true, value_name = "SIZE", value_parser = crate::memory::parse)]
     pub max_memory: Option<u64>,

@@ -20,7 +20,9 @@ pub fn run(cli: &Cli, args: &BakeArgs, shell: &mut Shell<'_>) -> anyhow::Result<
     let stage = Stage::new(&args.scene, cli.max_memory, 0, shell)?;
     create_folder(&args.output)?;
     let (mut files, mut lines, mut all) = (Vec::new(), Vec::new(), Vec::new());
+    let progress = shell.progress(stage.lamps.len());
     for lamp in &stage.lamps {
+        progress.set_message(lamp.name.clone());
         let start = Instant::now();
         let bake = |(name, view)| {
             let map = light_map(&recipe, &stage.scene, view).kept(args.storage);
@@ -43,7 +45,9 @@ pub fn run(cli: &Cli, args: &BakeArgs, shell: &mut Shell<'_>) -> anyhow::Result<
             files.push(path);
         }
         lines.push((lamp.name.clone(), recipe.to_string(), bytes, baked, written));
+        progress.inc(1);
     }
+    drop(progress);
     if !all.is_empty() {
         let path = names::file(&args.output, &stage.scene.name, None, &[], "exr");
         write_maps(&path, &all)?;

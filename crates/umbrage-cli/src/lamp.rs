@@ -1,5 +1,6 @@
 //! A light's shadow.
 
+use crate::memory::Need;
 use crate::stage::{Lamp, Stage};
 use anyhow::Context;
 use umbrage_depth::Storage;
@@ -9,7 +10,7 @@ use umbrage_render::{Soup, alpha_blend, alpha_test, receivers};
 /// All of pass 1 of a light, and the algorithm over it.
 ///
 /// # Errors
-/// A recipe that cannot be used for the light, with the light's name.
+/// A recipe that cannot be used for the light, or too little memory, with the light's name.
 pub fn shadow_of(stage: &Stage, lamp: &Lamp, recipe: &Recipe) -> anyhow::Result<LightShadow> {
     let scene = &stage.scene;
     let light = &scene.lights[lamp.light];
@@ -17,6 +18,12 @@ pub fn shadow_of(stage: &Stage, lamp: &Lamp, recipe: &Recipe) -> anyhow::Result<
     let with = LightUse { storage: Storage::Tiled, receivers: seen.as_deref(), moments: 1 };
     // A spot too wide for one map is split by the recipe, which then knows its cone.
     let views = if light.view.cone().is_some() { std::slice::from_ref(&light.view) } else { &lamp.views };
+    let points = u64::from(recipe.most_points());
+    if points > 1 {
+        let texels: u64 = views.iter().map(|view| u64::from(view.size().element_product())).sum();
+        let need = Need { texels, kept_texels: points * texels, ..Need::default() };
+        need.check(stage.max_memory).with_context(|| format!("light {:?}", light.name))?;
+    }
     let (test, blend) = (alpha_test(scene), alpha_blend(scene));
     let shadow = recipe.shadow_of(views, &with, |view, _| Soup::casters(scene, view).into_casting(&test, &blend));
     shadow.with_context(|| format!("light {:?}", light.name))

@@ -25,27 +25,28 @@ use std::ffi::OsString;
 use std::io::{BufRead, ErrorKind, Write};
 
 /// Runs a command line, the program's name first, and returns its exit code: 0 for success, 1 for a failure, 2 for a command line that makes no
-/// sense. Every failure is one line on `err`.
+/// sense. Every failure is one line on `err`. Where `err` is a terminal, it also shows colours and, beside `err`, on the program's own standard
+/// error, how far the work is.
 pub fn run(
     args: impl IntoIterator<Item = OsString>,
     input: &mut dyn BufRead,
     out: &mut dyn Write,
     err: &mut dyn Write,
+    is_terminal: bool,
 ) -> u8 {
+    let args: Vec<OsString> = args.into_iter().collect();
+    let coloured = is_coloured(&args, is_terminal);
     let cli = match Cli::try_parse_from(args) {
         Ok(cli) => cli,
         Err(error) => {
             let text = error.render();
-            if error.use_stderr() {
-                let _ = write!(err, "{text}");
-                return 2;
-            }
-            let _ = write!(out, "{text}");
-            return 0;
+            let (to, code): (&mut dyn Write, u8) = if error.use_stderr() { (err, 2) } else { (out, 0) };
+            let _ = if coloured { write!(to, "{}", text.ansi()) } else { write!(to, "{text}") };
+            return code;
         }
     };
     let mut out = Output(out);
-    let mut shell = Shell { input, out: &mut out, err, quiet: cli.quiet, verbose: cli.verbose };
+    let mut shell = Shell { input, out: &mut out, err, quiet: cli.quiet, verbose: cli.verbose, is_terminal };
     let done = with_threads(cli.threads.map(usize::from), &mut shell, |shell| {
         command(&cli, shell)?;
         // What waits in a buffer is not written yet.
@@ -56,9 +57,22 @@ pub fn run(
         Err(error) if is_closed(&error) => 0,
         Err(error) => {
             let line = format!("{error:#}").replace(['\n', '\r'], " ");
-            let _ = writeln!(err, "error: {line}");
+            let error_word = if coloured { "\x1b[1;31merror:\x1b[0m" } else { "error:" };
+            let _ = writeln!(err, "{error_word} {line}");
             if error.is::<Usage>() { 2 } else { 1 }
         }
+    }
+}
+
+/// Whether colours are wanted: as `--color` says, which is looked for by hand, so that faults of the other arguments have them too.
+fn is_coloured(args: &[OsString], is_terminal: bool) -> bool {
+    let words: Vec<&str> = args.iter().filter_map(|arg| arg.to_str()).collect();
+    let joined = words.iter().find_map(|word| word.strip_prefix("--color="));
+    let apart = words.windows(2).find(|pair| pair[0] == "--color").map(|pair| pair[1]);
+    match joined.or(apart) {
+        Some("always") => true,
+        Some("never") => false,
+        _ => is_terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
     }
 }
 

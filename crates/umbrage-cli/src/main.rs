@@ -1,6 +1,6 @@
 //! The `umbrage` command.
 
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, IsTerminal, Write};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -10,8 +10,9 @@ fn main() -> ExitCode {
     }
     let mut out = BufWriter::new(std::io::stdout().lock());
     let mut err = std::io::stderr();
+    let is_terminal = err.is_terminal();
     let mut stdin = std::io::stdin().lock();
-    let code = umbrage_cli::run(std::env::args_os(), &mut stdin, &mut out, &mut err);
+    let code = umbrage_cli::run(std::env::args_os(), &mut stdin, &mut out, &mut err, is_terminal);
     // A reader that has gone away has all that it wanted.
     let _ = out.flush();
     ExitCode::from(code)

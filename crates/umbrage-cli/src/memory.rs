@@ -18,6 +18,8 @@ const PER_PIXEL: u64 = 512;
 const PER_TRIANGLE: u64 = 1024;
 /// Bytes for each texel of each map.
 const PER_TEXEL: u64 = 64;
+/// Bytes for each texel of each map of a light with a size, of which there are many and one is made at a time.
+const PER_KEPT_TEXEL: u64 = 16;
 
 /// What a command is about to hold.
 #[derive(Clone, Copy, Debug, Default)]
@@ -27,10 +29,13 @@ pub struct Need {
     pub samples: u32,
     pub triangles: u64,
     pub texels: u64,
+    /// Of the maps at the points of a light with a size.
+    pub kept_texels: u64,
 }
 
 impl Need {
-    /// 64 MiB + 8 × the file + 512 bytes for each pixel + 64 for each sample + 1024 for each triangle + 64 for each texel of a map.
+    /// 64 MiB + 8 × the file + 512 bytes for each pixel + 64 for each sample + 1024 for each triangle + 64 for each texel of a map
+    /// + 16 for each of the maps of a light with a size.
     pub fn bytes(&self) -> u64 {
         let pixels = u64::from(self.picture.x) * u64::from(self.picture.y);
         let picture = pixels.saturating_mul(PER_PIXEL + PER_SAMPLE * u64::from(self.samples));
@@ -38,6 +43,7 @@ impl Need {
             .saturating_add(picture)
             .saturating_add(self.triangles.saturating_mul(PER_TRIANGLE))
             .saturating_add(self.texels.saturating_mul(PER_TEXEL))
+            .saturating_add(self.kept_texels.saturating_mul(PER_KEPT_TEXEL))
     }
 
     /// Texels of a map that may be held beside all this.

@@ -26,7 +26,13 @@ pub fn run(cli: &Cli, args: &RenderArgs, shell: &mut Shell<'_>) -> anyhow::Resul
         stage.lamps.iter_mut().zip(0..).for_each(|(lamp, light)| lamp.light = light);
     }
     let start = Instant::now();
-    let made = stage.lamps.iter().map(|lamp| lamp::shadow_of(&stage, lamp, &stage.recipe_of(lamp)?));
+    let progress = shell.progress(stage.lamps.len() + 1);
+    let made = stage.lamps.iter().map(|lamp| {
+        progress.set_message(lamp.name.clone());
+        let made = lamp::shadow_of(&stage, lamp, &stage.recipe_of(lamp)?)?;
+        progress.inc(1);
+        Ok(made)
+    });
     let made = made.collect::<anyhow::Result<Vec<_>>>()?;
     let baked = start.elapsed();
     let shadows: Vec<&dyn Shadow> = (0..stage.scene.lights.len())
@@ -35,9 +41,11 @@ pub fn run(cli: &Cli, args: &RenderArgs, shell: &mut Shell<'_>) -> anyhow::Resul
             None => &Unshadowed as &dyn Shadow,
         })
         .collect();
+    progress.set_message("picture");
     let start = Instant::now();
     let image = picture(&stage.scene, &shadows, &frame(args.samples, cli.seed, args.scene.frame));
     let drawn = start.elapsed();
+    drop(progress);
     write(&args.output, image.size, &image.colour)?;
     let lines = stage.lamps.iter().zip(&made).map(|(lamp, made)| {
         let recipe = stage.recipe_of(lamp).map_or_else(|_| String::new(), |recipe| recipe.to_string());

@@ -28,7 +28,9 @@ pub fn run(cli: &Cli, args: &ShadowArgs, shell: &mut Shell<'_>) -> anyhow::Resul
     let geometry = args.truth.then(|| Geometry::new(&stage.scene, &stage.scene.camera));
     let frame = frame(samples, cli.seed, args.scene.frame);
     let (mut files, mut lines) = (Vec::new(), Vec::new());
+    let progress = shell.progress(stage.lamps.len());
     for lamp in &stage.lamps {
+        progress.set_message(lamp.name.clone());
         let start = Instant::now();
         let (fractions, name, bytes, baked) = if let Some(geometry) = &geometry {
             let frame = Frame { every_sample: true, ..frame };
@@ -46,7 +48,9 @@ pub fn run(cli: &Cli, args: &ShadowArgs, shell: &mut Shell<'_>) -> anyhow::Resul
         write(&path, args.format, stage.scene.camera.size(), &fractions)?;
         files.push(path);
         lines.push((lamp.name.clone(), name, bytes, baked, looked_up));
+        progress.inc(1);
     }
+    drop(progress);
     report(cli, shell, &files, lines)
 }
 

@@ -1,6 +1,8 @@
 //! Where a command reads and writes, and how it says what is wrong.
 
+use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use std::io::{self, BufRead, Write};
+use std::time::Duration;
 
 /// What a command reads and writes beside files.
 pub struct Shell<'a> {
@@ -13,6 +15,8 @@ pub struct Shell<'a> {
     pub quiet: bool,
     /// `-v`: also what was left alone.
     pub verbose: bool,
+    /// Whether `err` is a terminal, on which people see how far the work is.
+    pub is_terminal: bool,
 }
 
 impl Shell<'_> {
@@ -21,6 +25,18 @@ impl Shell<'_> {
         if !self.quiet {
             let _ = writeln!(self.err, "{line}");
         }
+    }
+
+    /// How far the work is, in so many steps: a line of the terminal that goes away with it. Nothing where nobody looks.
+    pub fn progress(&self, steps: usize) -> ProgressBar {
+        if !self.is_terminal || self.quiet {
+            return ProgressBar::hidden();
+        }
+        let style = ProgressStyle::with_template("{spinner} {wide_msg} {pos}/{len} {elapsed}");
+        let bar = ProgressBar::new(steps as u64).with_finish(ProgressFinish::AndClear);
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        bar.enable_steady_tick(Duration::from_millis(100));
+        bar
     }
 }
 

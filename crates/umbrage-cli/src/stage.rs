@@ -37,6 +37,8 @@ pub struct Stage {
     pub casting: usize,
     /// What the command line names; otherwise each light has its own, or else the default.
     pub recipe: Option<Recipe>,
+    /// What `--max-memory` says.
+    pub max_memory: Option<u64>,
 }
 
 impl Stage {
@@ -61,7 +63,7 @@ impl Stage {
         let maps: u64 = lamps.iter().map(|lamp| lamp.views.len() as u64).sum();
         let picture = if samples == 0 { UVec2::ZERO } else { size };
         let texels = maps * u64::from(args.map_size).pow(2);
-        Need { file_bytes: 0, picture, samples, triangles: triangles.sum(), texels }.check(max_memory)?;
+        Need { picture, samples, triangles: triangles.sum(), texels, ..Need::default() }.check(max_memory)?;
         if shell.verbose {
             // Several views see all around their light.
             for lamp in lamps.iter().filter(|lamp| lamp.views.len() == 1) {
@@ -72,7 +74,7 @@ impl Stage {
                 }
             }
         }
-        Ok(Self { scene, lamps, casting, recipe })
+        Ok(Self { scene, lamps, casting, recipe, max_memory })
     }
 
     /// The light's part of a file's name: nothing where the scene has one light that casts.

@@ -54,7 +54,7 @@ pub fn lookup_lines(text: &[u8]) -> bool {
     let run = |more: &[&str]| {
         let words = ["umbrage", "lookup", "-q"].iter().chain(more).map(OsString::from);
         let (mut input, mut out, mut err) = (text, Vec::new(), Vec::new());
-        let code = umbrage_cli::run(words.chain([MAP.clone().into_os_string()]), &mut input, &mut out, &mut err);
+        let code = umbrage_cli::run(words.chain([MAP.clone().into_os_string()]), &mut input, &mut out, &mut err, false);
         let [out, err] = [out, err].map(|bytes| String::from_utf8(bytes).expect("text"));
         if let Some(line) = err.strip_suffix('\n') {
             assert_line(line);

@@ -8,7 +8,7 @@ use umbrage_recipe::Recipe;
 fn refused(args: &[&str]) -> (u8, String) {
     let words = std::iter::once("umbrage").chain(args.iter().copied()).map(OsString::from);
     let (mut out, mut err) = (Vec::new(), Vec::new());
-    let code = umbrage_cli::run(words, &mut std::io::empty(), &mut out, &mut err);
+    let code = umbrage_cli::run(words, &mut std::io::empty(), &mut out, &mut err, false);
     (code, String::from_utf8(err).expect("text"))
 }
 

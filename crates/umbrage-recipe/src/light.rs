@@ -15,7 +15,8 @@ use umbrage_shadow::{Bounded, Mean, Shadow, Through};
 const WIDE: f64 = 0.342_020_143_325_668_7;
 
 /// Fewest and most points of a light with a size, where their number is not given.
-const POINTS: [u32; 2] = [16, 64];
+const FEWEST_POINTS: u32 = 16;
+const MOST_POINTS: u32 = 64;
 
 /// What a light's maps are made for, beside its view.
 #[derive(Clone, Copy, Debug, Default)]
@@ -86,6 +87,15 @@ impl fmt::Debug for LightShadow {
 }
 
 impl Recipe {
+    /// Most points of a light at which [`shadow_of`](Self::shadow_of) makes maps: one, unless the default is given the size of the light.
+    #[must_use]
+    pub fn most_points(&self) -> u32 {
+        match (self.preset, self.values.light) {
+            (PresetName::Auto, Some(_)) => self.values.maps.unwrap_or(MOST_POINTS),
+            _ => 1,
+        }
+    }
+
     /// All of pass 1 of a light, and the algorithm over it: a map for each view that the recipe wants. `views` are the light's own view, or several that stand
     /// at one place and see each another part ([`umbrage_plane::cube_views`]), across whose borders filters go on. `casters` gives the triangles for a view at one of the moments; it
     /// is asked for each map, and again where some of them let light pass.
@@ -301,7 +311,7 @@ fn points_of<'a>(
     let spread = if view.is_perspective() { (farthest - nearest) / nearest } else { farthest - nearest };
     let texels = 2.0 * f64::from(radius) * spread / view.texel_world(farthest).min_element();
     // NaN and nothing at all are the fewest.
-    ((texels.max(0.0) as u32).min(POINTS[1])).next_power_of_two().clamp(POINTS[0], POINTS[1])
+    ((texels.max(0.0) as u32).min(MOST_POINTS)).next_power_of_two().clamp(FEWEST_POINTS, MOST_POINTS)
 }
 
 fn of_view(field: &str, value: &str, error: &dyn fmt::Display) -> RecipeError {

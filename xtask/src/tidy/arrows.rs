@@ -97,7 +97,17 @@ const RULES: &[Rule] = &[
     Rule {
         package: "umbrage-cli",
         arrows: COMMAND,
-        outside: &["anyhow", "clap", "clap_complete", "clap_mangen", "ctrlc", "glam", "rayon", "serde_json"],
+        outside: &[
+            "anyhow",
+            "clap",
+            "clap_complete",
+            "clap_mangen",
+            "ctrlc",
+            "glam",
+            "indicatif",
+            "rayon",
+            "serde_json",
+        ],
         tests: &[],
     },
     Rule { package: "umbrage-bench", arrows: EVERY, outside: &[], tests: &["criterion", "glam"] },

@@ -6,7 +6,7 @@ use std::io::{self, BufWriter, ErrorKind, Write};
 fn run(args: &[&str], out: impl Write) -> (u8, String) {
     let (mut out, mut err) = (BufWriter::new(out), Vec::new());
     let words = std::iter::once("umbrage").chain(args.iter().copied()).map(Into::into);
-    let code = umbrage_cli::run(words, &mut io::empty(), &mut out, &mut err);
+    let code = umbrage_cli::run(words, &mut io::empty(), &mut out, &mut err, false);
     // What is left in the buffer would be tried again.
     let _ = out.into_parts();
     (code, String::from_utf8(err).expect("text"))

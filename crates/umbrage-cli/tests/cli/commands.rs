@@ -247,7 +247,7 @@ fn a_reader_that_goes_away_is_no_failure_but_a_full_disk_is() {
         let run = |out: &mut dyn Write| {
             let args = std::iter::once("umbrage").chain(args.iter().copied()).map(Into::into);
             let (mut input, mut err) = ("0 0 0 0 1 0\n".as_bytes(), Vec::new());
-            (umbrage_cli::run(args, &mut input, out, &mut err), String::from_utf8(err).expect("text"))
+            (umbrage_cli::run(args, &mut input, out, &mut err, false), String::from_utf8(err).expect("text"))
         };
         assert_eq!(run(&mut Gone).0, 0, "{args:?}");
         let (code, err) = run(&mut Full);
@@ -267,4 +267,17 @@ fn folders_that_cannot_be_made_are_named() {
     let error =
         refused(1, &["render", "gallery:table", "-o", text(&inside), "--size", "16x16", "--map-size", "16", "-q"]);
     assert!(error.starts_with(&format!("error: {}: cannot ", inside.display())), "{error}");
+}
+
+#[test]
+fn errors_are_coloured_where_that_is_wanted() {
+    let plain = refused(1, &["info", "nowhere.exr"]);
+    assert!(plain.starts_with("error: nowhere.exr"), "{plain}");
+    for colour in [&["--color", "always"][..], &["--color=always"]] {
+        let coloured = refused(1, &[&["info", "nowhere.exr"], colour].concat());
+        assert_eq!(coloured, plain.replacen("error:", "\u{1b}[1;31merror:\u{1b}[0m", 1));
+    }
+    let usage = |colour: &str| run(&["info", "--color", colour]).err;
+    assert!(usage("always").contains("\u{1b}[") && !usage("never").contains("\u{1b}["), "{}", usage("always"));
+    assert!(usage("pink").contains("pink"));
 }

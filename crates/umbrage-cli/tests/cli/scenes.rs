@@ -22,6 +22,24 @@ fn scenes_of_files_are_shadowed_as_rays_say() {
     }
 }
 
+/// Skin, bones and a lamp that shines all around, as Blender writes them.
+#[test]
+fn a_scene_of_blender_bends_in_time() {
+    let scene = fixture("scenes/bend.glb");
+    let picture = |time: &str, more: &[&str]| {
+        let into = folder("bend");
+        let fixed = ["shadow", &scene, "-o", text(&into), "--time", time, "--size", "120x90", "--samples", "4"];
+        good(&[&fixed[..], more].concat());
+        values(&into.join("bend.png"))
+    };
+    let [before, after] = ["0", "1"].map(|time| {
+        let (own, truth) = (picture(time, &["--map-size", "256"]), picture(time, &["--truth"]));
+        assert!(rms(&own, &truth) < 0.03, "at {time} s: {}", rms(&own, &truth));
+        truth
+    });
+    assert!(rms(&before, &after) > 0.05, "{}", rms(&before, &after));
+}
+
 #[test]
 fn what_is_exported_has_the_same_shadow() {
     let out = folder("export");

@@ -13,7 +13,7 @@ pub struct Ran {
 pub fn run_with(input: &str, args: &[&str]) -> Ran {
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let args = std::iter::once("umbrage").chain(args.iter().copied()).map(Into::into);
-    let code = umbrage_cli::run(args, &mut input.as_bytes(), &mut out, &mut err);
+    let code = umbrage_cli::run(args, &mut input.as_bytes(), &mut out, &mut err, false);
     let text = |bytes| String::from_utf8(bytes).expect("text");
     Ran { code, out: text(out), err: text(err) }
 }
