@@ -56,12 +56,23 @@ pub fn run(
         Ok(()) => 0,
         Err(error) if is_closed(&error) => 0,
         Err(error) => {
-            let line = format!("{error:#}").replace(['\n', '\r'], " ");
+            let line = line(&error);
             let error_word = if coloured { "\x1b[1;31merror:\x1b[0m" } else { "error:" };
             let _ = writeln!(err, "{error_word} {line}");
             if error.is::<Usage>() { 2 } else { 1 }
         }
     }
+}
+
+/// An error and its causes as one line, without those that it names itself.
+fn line(error: &anyhow::Error) -> String {
+    let mut line = error.to_string();
+    for cause in error.chain().skip(1).map(ToString::to_string) {
+        if !line.ends_with(&cause) {
+            line = format!("{line}: {cause}");
+        }
+    }
+    line.replace(['\n', '\r'], " ")
 }
 
 /// Whether colours are wanted: as `--color` says, which is looked for by hand, so that faults of the other arguments have them too.
