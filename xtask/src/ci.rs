@@ -35,7 +35,7 @@ pub fn run(root: &Path) -> anyhow::Result<bool> {
 }
 
 /// Cargo's settings under which everything is compiled that is run once: without debug information, and where this machine's
-/// processor is of the level x86-64-v3, all for its instructions alone, which halves what is compiled of filters. Results are the same bits.
+/// processor is of the level x86-64-v3, for that level only, which nearly halves the code of filters. Results are the same bits.
 fn quick_to_compile() -> Vec<(&'static str, &'static str)> {
     let mut settings = vec![
         // What is compiled once needs no pieces to be compiled again from: without them the tests of filters take 40 % of the time.

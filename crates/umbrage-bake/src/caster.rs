@@ -48,14 +48,14 @@ pub struct Caster<'a> {
     /// The shading normals at its corners, in their order, of any length but 0; `None` for a flat triangle. Asked for by
     /// [`bake_by_normals`](crate::bake_by_normals) alone.
     pub normals: Option<[Vec3; 3]>,
-    /// Where its corners lie in a texture, in their order; all at (0, 0) if nobody says. Its mask and its film alone learn of them.
+    /// Where its corners lie in a texture, in their order; all at (0, 0) unless given. Only its mask and its film use them.
     pub uvs: [Vec2; 3],
     /// Who is asked, wherever the triangle would be seen, whether anything of it is there; `None` for a triangle without holes. Every
     /// kind of map asks, at each of its samples, and a [refined](crate::bake_refined) one at the slots of its links too. Where nothing
     /// is there the sample sees what is behind, as if the triangle had not been given. Holes between samples are not seen.
     pub mask: Option<Mask<'a>>,
-    /// What passes it, where that is not the same all over; it then stands for [`passes`](Self::passes), which is not asked for. As that,
-    /// it is asked for by [`bake_deep`](crate::bake_deep) alone, at each of its samples.
+    /// The fraction of light that passes it where that varies over its surface; it replaces [`passes`](Self::passes). Only
+    /// [`bake_deep`](crate::bake_deep) calls it, at each of its samples.
     pub film: Option<Film<'a>>,
 }
 
@@ -90,7 +90,7 @@ impl<'a> Caster<'a> {
         Self { mask: Some(mask), ..self }
     }
 
-    /// The same, letting light through as the film says, place by place.
+    /// The same with a [film](Self::film).
     #[must_use]
     pub fn with_film(self, film: Film<'a>) -> Self {
         Self { film: Some(film), ..self }
@@ -134,7 +134,7 @@ impl fmt::Debug for Caster<'_> {
     }
 }
 
-/// Masks and films are the same when they are one and the same function at one place in memory, not when they say the same.
+/// Masks and films are the same when they are one and the same function at one place in memory, not when they return the same.
 impl PartialEq for Caster<'_> {
     fn eq(&self, other: &Self) -> bool {
         fn one<F: ?Sized>(own: Option<&F>, other: Option<&F>) -> bool {

@@ -1,4 +1,4 @@
-//! Casters with holes, and those that let light pass here more than there: who is asked, and of which place.
+//! Functions of a caster's surface: where it has holes, and how much light passes it.
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
@@ -11,10 +11,10 @@ pub type Mask<'a> = &'a (dyn Fn(&MaskPlace) -> bool + Sync);
 /// What passes of the light at a place of a caster, linear RGB: 0 is opaque. What lies outside 0..=1 counts as the nearer end of it,
 /// NaN as 0.
 ///
-/// It is asked as a [`Mask`] is, and must as surely say the same of the same place.
+/// Like a [`Mask`] it is called from several threads, and must always return the same for the same place.
 pub type Film<'a> = &'a (dyn Fn(&MaskPlace) -> Vec3 + Sync);
 
-/// A place of a triangle, of which a [`Mask`] or a [`Film`] is asked.
+/// A place on a triangle, the argument of a [`Mask`] and a [`Film`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MaskPlace {

@@ -1,4 +1,4 @@
-//! The masks and films of a bake, and where they are asked.
+//! The masks and films of a bake, and the places at which they are evaluated.
 
 use crate::caster::within;
 use crate::mask::mix;

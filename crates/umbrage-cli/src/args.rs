@@ -26,7 +26,7 @@ pub struct Cli {
     /// Also say what was left alone and why
     #[arg(short, long, global = true)]
     pub verbose: bool,
-    /// When errors and help have colours: auto means on a terminal, unless NO_COLOR is set
+    /// When to colour errors and help: auto is on a terminal, unless NO_COLOR is set
     #[arg(long, global = true, value_name = "WHEN", value_enum, default_value_t = clap::ColorChoice::Auto)]
     pub color: clap::ColorChoice,
     /// Most memory that may be asked for, such as 2GiB; 4 GiB or half of what there is unless given
@@ -213,7 +213,7 @@ pub struct ExportArgs {
     pub output: PathBuf,
 }
 
-/// A file of maps, and how it is understood.
+/// A file of maps, and how to read it.
 #[derive(Args)]
 pub struct MapArgs {
     /// The file of one map, or of several in parts

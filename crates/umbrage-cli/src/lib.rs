@@ -25,8 +25,8 @@ use std::ffi::OsString;
 use std::io::{BufRead, ErrorKind, Write};
 
 /// Runs a command line, the program's name first, and returns its exit code: 0 for success, 1 for a failure, 2 for a command line that makes no
-/// sense. Every failure is one line on `err`. Where `err` is a terminal, it also shows colours and, beside `err`, on the program's own standard
-/// error, how far the work is.
+/// sense. Every failure is one line on `err`. If `err` `is_terminal`, errors have colours and
+/// progress bars are drawn on the process's standard error.
 pub fn run(
     args: impl IntoIterator<Item = OsString>,
     input: &mut dyn BufRead,
@@ -64,7 +64,7 @@ pub fn run(
     }
 }
 
-/// An error and its causes as one line, without those that it names itself.
+/// An error and its causes as one line. A cause that the text before it already ends with is not repeated.
 fn line(error: &anyhow::Error) -> String {
     let mut line = error.to_string();
     for cause in error.chain().skip(1).map(ToString::to_string) {
@@ -75,7 +75,7 @@ fn line(error: &anyhow::Error) -> String {
     line.replace(['\n', '\r'], " ")
 }
 
-/// Whether colours are wanted: as `--color` says, which is looked for by hand, so that faults of the other arguments have them too.
+/// Whether errors and help are coloured. `--color` is found before the command line is parsed, so that it also holds for errors of parsing.
 fn is_coloured(args: &[OsString], is_terminal: bool) -> bool {
     let words: Vec<&str> = args.iter().filter_map(|arg| arg.to_str()).collect();
     let joined = words.iter().find_map(|word| word.strip_prefix("--color="));

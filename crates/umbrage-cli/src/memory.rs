@@ -18,7 +18,7 @@ const PER_PIXEL: u64 = 512;
 const PER_TRIANGLE: u64 = 1024;
 /// Bytes for each texel of each map.
 const PER_TEXEL: u64 = 64;
-/// Bytes for each texel of each map of a light with a size, of which there are many and one is made at a time.
+/// Bytes for each texel of the finished maps of a light with a size; only one of them at a time is being made.
 const PER_KEPT_TEXEL: u64 = 16;
 
 /// What a command is about to hold.
@@ -29,13 +29,13 @@ pub struct Need {
     pub samples: u32,
     pub triangles: u64,
     pub texels: u64,
-    /// Of the maps at the points of a light with a size.
+    /// Texels of all maps of a light with a size.
     pub kept_texels: u64,
 }
 
 impl Need {
     /// 64 MiB + 8 × the file + 512 bytes for each pixel + 64 for each sample + 1024 for each triangle + 64 for each texel of a map
-    /// + 16 for each of the maps of a light with a size.
+    /// + 16 for each texel of all maps of a light with a size.
     pub fn bytes(&self) -> u64 {
         let pixels = u64::from(self.picture.x) * u64::from(self.picture.y);
         let picture = pixels.saturating_mul(PER_PIXEL + PER_SAMPLE * u64::from(self.samples));

@@ -15,7 +15,7 @@ pub struct Shell<'a> {
     pub quiet: bool,
     /// `-v`: also what was left alone.
     pub verbose: bool,
-    /// Whether `err` is a terminal, on which people see how far the work is.
+    /// Whether `err` is a terminal: only there is progress shown.
     pub is_terminal: bool,
 }
 
@@ -27,7 +27,7 @@ impl Shell<'_> {
         }
     }
 
-    /// How far the work is, in so many steps: a line of the terminal that goes away with it. Nothing where nobody looks.
+    /// A progress bar of so many steps, which disappears when it is dropped; hidden unless standard error is a terminal.
     pub fn progress(&self, steps: usize) -> ProgressBar {
         if !self.is_terminal || self.quiet {
             return ProgressBar::hidden();
@@ -40,7 +40,7 @@ impl Shell<'_> {
     }
 }
 
-/// Where data go. A disk that is full is told apart from those of the files that a command writes.
+/// Standard output. Its errors name it, so that a full disk there is not mistaken for one under a file that the command writes.
 pub struct Output<'a>(pub &'a mut dyn Write);
 
 impl Write for Output<'_> {

@@ -37,7 +37,7 @@ pub struct Stage {
     pub casting: usize,
     /// What the command line names; otherwise each light has its own, or else the default.
     pub recipe: Option<Recipe>,
-    /// What `--max-memory` says.
+    /// The value of `--max-memory`, bytes.
     pub max_memory: Option<u64>,
 }
 
@@ -65,7 +65,7 @@ impl Stage {
         let texels = maps * u64::from(args.map_size).pow(2);
         Need { picture, samples, triangles: triangles.sum(), texels, ..Need::default() }.check(max_memory)?;
         if shell.verbose {
-            // Several views see all around their light.
+            // Several views together cover every direction.
             for lamp in lamps.iter().filter(|lamp| lamp.views.len() == 1) {
                 let light = &scene.lights[lamp.light];
                 for object in scene.casters_outside(&light.view) {

@@ -4,7 +4,7 @@ use crate::exr_seeds::{CODERS, tile_packed_by};
 use crate::promises::{assert_line, most_bytes};
 use umbrage_depth::{DepthMap, Map};
 use umbrage_io::{
-    decode_deep_map, decode_facet_map, decode_map, decode_shadow_map, encode_deep_map, encode_facet_map,
+    Fault, decode_deep_map, decode_facet_map, decode_map, decode_shadow_map, encode_deep_map, encode_facet_map,
     encode_shadow_map,
 };
 
@@ -16,53 +16,45 @@ pub(crate) fn most_texels(file: &[u8]) -> u64 {
     most_bytes(file) / 64
 }
 
-/// Whether a map is small enough to be written and read again.
+/// Checks what a reader made of a file: an error is one line, and a map has no more texels than were allowed and, if it is small, is the
+/// same after it was written `again`. Whether it is a map.
 ///
 /// # Panics
-/// When it has more texels than were allowed.
-fn is_small(map: &impl DepthMap, file: &[u8]) -> bool {
-    let size = map.view().size();
-    assert!(u64::from(size.x) * u64::from(size.y) <= most_texels(file), "{size}");
-    size.x * size.y <= MOST_WRITTEN_AGAIN
-}
-
-/// Takes bytes as a map of any kind, and as the depths of one. Whether they were.
-///
-/// # Panics
-/// When a refusal is not one line, more is read than was allowed, or what was read is another map after it was written.
-pub fn exr_header(file: &[u8]) -> bool {
-    let most = most_texels(file);
-    let depths = match decode_shadow_map(file, most) {
+/// When it is not so.
+fn holds<M: DepthMap>(read: Result<M, Fault>, file: &[u8], again: impl FnOnce(&M) -> bool) -> bool {
+    match read {
         Err(fault) => {
             assert_line(fault);
             false
         }
         Ok(map) => {
-            if is_small(&map, file) {
-                let again = encode_shadow_map(&map).expect("written");
-                assert_eq!(decode_shadow_map(&again, most), Ok(map));
-            }
+            let size = map.view().size();
+            assert!(u64::from(size.x) * u64::from(size.y) <= most_texels(file), "{size}");
+            assert!(size.x * size.y > MOST_WRITTEN_AGAIN || again(&map), "another map after it was written");
             true
         }
-    };
-    let whole = match decode_map(file, most) {
-        Err(fault) => {
-            assert_line(fault);
-            false
+    }
+}
+
+/// Reads bytes as a map of any kind, and as a map of depths alone. Whether they are either.
+///
+/// # Panics
+/// When an error is longer than one line, more is read than was allowed, or a map changes by being written and read again.
+pub fn exr_header(file: &[u8]) -> bool {
+    let most = most_texels(file);
+    let depths = holds(decode_shadow_map(file, most), file, |map| {
+        decode_shadow_map(&encode_shadow_map(map).expect("written"), most).as_ref() == Ok(map)
+    });
+    let whole = holds(decode_map(file, most), file, |map| match map {
+        Map::Facets(map) => {
+            decode_facet_map(&encode_facet_map(map).expect("written"), most).is_ok_and(|again| again == **map)
         }
-        Ok(Map::Facets(map)) => {
-            if is_small(&*map, file) {
-                let again = encode_facet_map(&map).expect("written");
-                assert!(decode_facet_map(&again, most) == Ok((*map).clone()), "another map of facets");
-            }
-            true
-        }
-        Ok(_) => true,
-    };
+        _ => true,
+    });
     depths || whole
 }
 
-/// Takes bytes as the packed samples of the one tile of a map of 8 × 8 texels, whose header is sound. The first byte chooses the coder.
+/// Reads bytes as the packed samples of the one tile of a map of 8 × 8 texels, whose header is sound. The first byte chooses the coder.
 /// Whether it is a map.
 ///
 /// # Panics
@@ -72,23 +64,13 @@ pub fn exr_blocks(data: &[u8]) -> bool {
     exr_header(&tile_packed_by(CODERS[usize::from(*coder) % CODERS.len()].0, packed))
 }
 
-/// Takes bytes as a deep map. Whether they are one.
+/// Reads bytes as a deep map. Whether they are one.
 ///
 /// # Panics
 /// As [`exr_header`].
 pub fn deep_exr(file: &[u8]) -> bool {
     let most = most_texels(file);
-    match decode_deep_map(file, most) {
-        Err(fault) => {
-            assert_line(fault);
-            false
-        }
-        Ok(map) => {
-            if is_small(&map, file) {
-                let again = encode_deep_map(&map).expect("written");
-                assert!(decode_deep_map(&again, most) == Ok(map), "another deep map");
-            }
-            true
-        }
-    }
+    holds(decode_deep_map(file, most), file, |map| {
+        decode_deep_map(&encode_deep_map(map).expect("written"), most).as_ref() == Ok(map)
+    })
 }

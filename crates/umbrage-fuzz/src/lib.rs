@@ -1,9 +1,9 @@
-//! Hostile input: what is done with it, and where it comes from.
+//! Hostile input: where it comes from, and what must hold for every reader that is given it.
 //!
-//! * [`TARGETS`]: for each format that Umbrage reads, a function that takes any bytes as a file of it and panics when a promise is broken.
-//! * [`Mutants`]: damaged files near a good one. `tests/` puts tens of thousands of them through each target and holds the memory that
-//!   is taken; `fuzz/` puts libFuzzer's own through the same functions.
-//! * [`ExrFile`]: a second reader of EXR, to which what we write is held, and the writer of EXR files that we do not write.
+//! * [`TARGETS`]: for each format that Umbrage reads, a function that takes any bytes as a file of it and panics when the reader breaks a promise.
+//! * [`Mutants`]: damaged files near a good one. `tests/` gives tens of thousands of them to each target and bounds the memory that
+//!   is allocated; `fuzz/` lets libFuzzer search with the same functions.
+//! * [`ExrFile`]: a second reader of EXR, which checks what Umbrage writes, and a writer of EXR files that Umbrage never writes.
 //!
 //! Nothing here is used by other crates.
 

@@ -1,4 +1,4 @@
-//! What holds of every file, whatever its format.
+//! What every reader promises, whatever the format.
 
 use std::fmt::Display;
 
@@ -7,7 +7,7 @@ pub fn most_bytes(file: &[u8]) -> u64 {
     (64 << 20) + 8 * file.len() as u64
 }
 
-/// A refusal is one line of a length that people read.
+/// Checks that an error is one line, short enough to read.
 ///
 /// # Panics
 /// When it is not.

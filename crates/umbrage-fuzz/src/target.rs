@@ -9,12 +9,12 @@ use crate::text::{lookup_lines, recipe};
 use glam::UVec2;
 use umbrage_scene::gallery;
 
-/// A format, and what is done with any bytes of it.
+/// A format, and the function that reads any bytes as a file of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
     /// The name of the function, of its program in `fuzz/` and of the folder of its corpus.
     pub name: &'static str,
-    /// Takes bytes for a file. True where they are one; panics when a promise is broken.
+    /// Reads bytes as a file. Whether they are valid; panics when the reader breaks a promise.
     pub takes: fn(&[u8]) -> bool,
     /// Good files to begin with.
     pub seeds: fn() -> Vec<Vec<u8>>,

@@ -12,10 +12,10 @@ use umbrage_plane::SurfacePoint;
 use umbrage_recipe::Recipe;
 use umbrage_sample::Key;
 
-/// Takes bytes as a recipe: as a line, as TOML, and in the words of the RenderMan Shading Language. Whether they are one.
+/// Takes bytes as a recipe: a line of text, TOML, and RenderMan's parameters. Whether they are valid as any of these.
 ///
 /// # Panics
-/// When a refusal is not one line, when a recipe is another one after it was written, or when its answer is no fraction.
+/// When an error is longer than one line, when a recipe changes by being written and read again, or when its answer lies outside 0..=1.
 pub fn recipe(text: &[u8]) -> bool {
     let text = String::from_utf8_lossy(text);
     let mut is_one = false;
@@ -33,7 +33,7 @@ pub fn recipe(text: &[u8]) -> bool {
     is_one
 }
 
-/// Asks a recipe's filter over a map of 8 × 8 texels.
+/// Looks one region up by a recipe in a map of 8 × 8 texels.
 fn answers(recipe: &Recipe) {
     let shadow = recipe.bind_any(map(&view(UVec2::splat(8))), Storage::Raw);
     let corners = [(-0.4, -0.5), (0.6, -0.4), (0.5, 0.5), (-0.5, 0.6)].map(|(x, y)| DVec3::new(x, y, 0.0));
@@ -41,10 +41,10 @@ fn answers(recipe: &Recipe) {
     assert!((0.0..=1.0).contains(&fraction), "{recipe}: {fraction}");
 }
 
-/// Takes bytes as what `umbrage lookup` is given to look up, once to the first bad line and once to the end. Whether all lines are good.
+/// Takes bytes as the input of `umbrage lookup`, once up to the first bad line and once to the end. Whether all lines are good.
 ///
 /// # Panics
-/// When the command gives anything but fractions and at most one line on stderr, or an answer where it should have stopped.
+/// When the command prints anything but fractions, more than one line on stderr, or an answer behind the line at which it should stop.
 pub fn lookup_lines(text: &[u8]) -> bool {
     static MAP: LazyLock<PathBuf> = LazyLock::new(|| {
         let path = std::env::temp_dir().join(format!("umbrage-fuzz-map-{}.exr", std::process::id()));

@@ -31,9 +31,9 @@ fn a_map_s_texels_are_counted_against_max_memory() {
     }
 }
 
-/// A word that is no field was repeated as it stood, with all that it does to a terminal, and however long it was.
+/// An unknown word was once repeated in the error verbatim, terminal control characters included, whatever its length.
 #[test]
-fn what_is_no_recipe_is_one_line_whatever_stands_in_it() {
+fn an_invalid_recipe_is_refused_by_one_short_line_without_control_characters() {
     let refusal = |text: &str| text.parse::<Recipe>().unwrap_err().to_string();
     assert_eq!(refusal("auto,a\0\u{1b}[31m\nb"), "a\\0\\u{1b}[31m\\nb = \"\": expected field=value");
     assert_eq!(refusal("woo92,samples=\u{1b}"), "samples = \"\\u{1b}\": expected a whole number from 1 to 65536");

@@ -8,14 +8,14 @@ use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
-/// Longest side that is read: what a JPEG image may have.
+/// Longest side that is read: the longest that JPEG can store.
 const MOST_SIDE: u32 = 65_535;
 
-/// Why there is no image.
+/// Why an image was not decoded.
 pub(crate) enum ImageError<E> {
-    /// What the decoder reports, or what the file is not.
+    /// The decoder's error, or that the format is not known.
     Unreadable(String),
-    /// What the caller has against its size.
+    /// The error by which the caller refused its size.
     Refused(E),
 }
 

@@ -31,7 +31,7 @@ pub struct NamedMap {
 pub struct Maps {
     /// Its maps, in the order of its parts; one at least.
     pub maps: Vec<NamedMap>,
-    /// What a reader should know: that a packing was lossy, which parts are no maps.
+    /// Warnings: lossy compression, and parts that hold no map.
     pub notes: Vec<Fault>,
 }
 
@@ -42,8 +42,9 @@ pub struct Maps {
 /// The parts of an EXR file share a display window: it is as large as the largest map, and smaller ones are in its upper left.
 ///
 /// # Errors
-/// A [`Fault`] when there is no map, or more than 2048 parts; when a name is empty, longer than 255 bytes, not of Latin letters or there twice; when a
-/// cone is no cosine, and where [`encode_facet_map`](crate::encode_facet_map) and [`encode_deep_map`](crate::encode_deep_map) give one.
+/// A [`Fault`] if there are no maps or more than 2048 parts; if a name is empty, longer than 255 bytes, has characters outside printable
+/// Latin-1, or occurs twice; if `light_cone` is outside 0..1; and for every error of [`encode_facet_map`](crate::encode_facet_map) and
+/// [`encode_deep_map`](crate::encode_deep_map).
 pub fn encode_maps(maps: &[NamedMap]) -> Result<Vec<u8>, Fault> {
     let display = maps.iter().fold(UVec2::ZERO, |most, named| most.max(named.map.view().size()));
     let of_facets = |name: &str| if maps.len() == 1 { FACETS.to_owned() } else { facets_of(name) };

@@ -23,7 +23,7 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
     write_atomic(path, |file| file.write_all(bytes))
 }
 
-/// What the system is called for.
+/// The system calls of a write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Step {
     Create,
@@ -33,7 +33,7 @@ pub(crate) enum Step {
     Remove,
 }
 
-/// As [`write_atomic`], where `before` is called before each step and fails in its place: so tests see to bad luck.
+/// As [`write_atomic`], where `before` is called before each step, and its error takes the place of the step's: tests inject failures with it.
 pub(crate) fn write_in_steps(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -69,7 +69,7 @@ impl<'a> Temporary<'a> {
             let temporary = path.with_file_name(hidden);
             remove_if_left_behind(&temporary);
             match OpenOptions::new().write(true).create_new(true).open(&temporary) {
-                // The lock tells others that whoever writes is alive. Where there are no locks, nothing is thought to be left behind.
+                // The lock shows that the writer is alive. On systems without locks no file is taken for a leftover.
                 Ok(file) => match file.try_lock() {
                     Ok(()) | Err(TryLockError::Error(_)) if is_at(&file, &temporary) => {
                         return Ok(Self { file, path: Some(temporary), before });

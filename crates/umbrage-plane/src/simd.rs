@@ -24,8 +24,8 @@ pub fn floor_texel<S: Simd>(simd: S, x: f32x16<S>) -> i32x16<S> {
 ///
 /// Two instruction sets, not all that there are, because every filter is compiled once for each. Look-ups with AVX2 take less time
 /// here than they took with AVX-512 before they were inlined; what AVX-512 would add to them was not measured. SSE4.2 alone is a
-/// processor of before 2013. A program that is compiled for AVX2 in the first place (`-C target-cpu=x86-64-v3`) has that one set alone,
-/// and takes half as long to compile.
+/// processor of before 2013. A program that is compiled for AVX2 in the first place (`-C target-cpu=x86-64-v3`) has only that set,
+/// and compiles in two thirds of the time.
 #[macro_export]
 macro_rules! vectorized {
     ($simd:pat => $body:expr) => {{

@@ -183,8 +183,8 @@ fn by_attributes(header: &Header, size: UVec2) -> Result<View, Fault> {
     )
 }
 
-/// Whether anything in a header is what only our files have: whoever damages one place of it does not make it a file of another
-/// maker, whose depths no digest vouches for.
+/// Whether a header has any mark of our own files. Damage to one mark must not turn a file of ours into one of another maker, which has
+/// no digest to check the depths by.
 fn is_ours(header: &Header) -> bool {
     let LayerAttributes { comments, software_name, other, .. } = &header.own_attributes;
     let texts = [comments, software_name].into_iter().flatten().map(Text::as_slice);

@@ -108,8 +108,7 @@ pub(crate) fn to_view(text: &str) -> Option<Result<Description, Fault>> {
     Some(parse(lines))
 }
 
-/// Whether a header's text, perhaps damaged, is what our files name as their software, or holds the first line or the digest of
-/// [`of_map`].
+/// Whether an attribute's text, perhaps damaged, is our software's name or contains the first line or the digest of [`of_map`].
 pub(crate) fn is_ours(text: &[u8]) -> bool {
     let marks = [SIGNATURE, "\ndigest="].map(str::as_bytes);
     text == SOFTWARE.as_bytes() || marks.iter().any(|mark| text.windows(mark.len()).any(|part| part == *mark))

@@ -105,7 +105,7 @@ fn what_could_not_be_removed_is_replaced_later() {
     }
 }
 
-/// A write that is interrupted by a signal, or takes fewer bytes than it was given, is no bad luck.
+/// A write that is interrupted by a signal or takes fewer bytes than it was given is continued, not failed.
 #[test]
 fn interrupted_writes_go_on() {
     let path = folder("interrupted").join("map.exr");

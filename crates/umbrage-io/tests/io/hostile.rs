@@ -237,7 +237,7 @@ fn a_nan_depth_is_named() {
     assert!(message.starts_with("channel Z is") && message.contains("(1, 0)"), "{message}");
 }
 
-/// A file that no longer says whose it is has no digest that is asked about, and a view of lower precision.
+/// A file of another maker is read without a digest and with a view of lower precision, so that damage would go unnoticed.
 #[test]
 fn two_damaged_bytes_do_not_make_a_file_of_another_maker() {
     let raw = map(&spot(UVec2::new(4, 4)));
