@@ -48,7 +48,7 @@ const RULES: &[Rule] = &[
     Rule {
         package: "umbrage-shadow",
         arrows: &["umbrage-plane", "umbrage-sample", "umbrage-depth"],
-        outside: &["fearless_simd", "glam", "thiserror"],
+        outside: &["arrayvec", "fearless_simd", "glam", "thiserror"],
         tests: PROPERTIES,
     },
     Rule {

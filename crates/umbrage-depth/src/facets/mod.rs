@@ -88,21 +88,21 @@ impl FacetMap {
         self.tiles.iter().flatten().map(FacetTile::refined).sum()
     }
 
-    /// The tile of a texel, with the tile's origin and the texel's place in it; `None` where no surface is kept and outside the map.
+    /// The tile of a texel, with the tile's middle and the texel's place in it; `None` where no surface is kept and outside the map.
     #[inline(always)]
-    fn tile(&self, texel: IVec2) -> Option<(&FacetTile, IVec2, UVec2)> {
+    fn tile(&self, texel: IVec2) -> Option<(&FacetTile, DVec2, UVec2)> {
         if !TexelRect::of_size(self.depths.view.size()).contains(texel) {
             return None;
         }
         let (tile, at) = (texel.as_uvec2() >> SHIFT, texel.as_uvec2() & (TILE - 1));
         let kept = self.tiles.get((tile.y * self.grid.x + tile.x) as usize)?;
-        Some((kept, (tile << SHIFT).as_ivec2(), at))
+        Some((kept, (tile << SHIFT).as_dvec2() + 0.5 * f64::from(TILE), at))
     }
 
     /// The plane of a texel that is not refined.
     #[inline(always)]
-    fn plane(&self, tile: &FacetTile, texel: IVec2, origin: IVec2, within: UVec2) -> Affine {
-        match tile.plane(origin, within) {
+    fn plane(&self, tile: &FacetTile, texel: IVec2, middle: DVec2, within: UVec2) -> Affine {
+        match tile.plane(middle, within) {
             tile::Stored::Plane(plane) => plane,
             tile::Stored::Depth(depth) => Affine::constant(self.key(texel, depth)),
         }

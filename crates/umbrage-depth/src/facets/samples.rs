@@ -1,10 +1,10 @@
 //! Samples and links of a map.
 
-use super::FacetMap;
 use super::source::{FacetSample, FacetSource};
 use super::tile::FacetTile;
+use super::{FacetMap, SHIFT};
 use crate::TILE;
-use glam::{IVec2, UVec2};
+use glam::{DVec2, IVec2, UVec2};
 use umbrage_plane::{Affine, TexelRect};
 
 impl FacetMap {
@@ -20,10 +20,10 @@ impl FacetMap {
 
     /// The sample of a texel that is not refined; nothing is outside the map.
     #[inline(always)]
-    fn whole(&self, texel: IVec2, found: Option<(&FacetTile, IVec2, UVec2)>) -> FacetSample {
+    fn whole(&self, texel: IVec2, found: Option<(&FacetTile, DVec2, UVec2)>) -> FacetSample {
         let centre = texel.as_dvec2() + 0.5;
-        let Some((tile, origin, within)) = found else { return FacetSample::nothing(centre) };
-        FacetSample { plane: self.plane(tile, texel, origin, within), at: centre, side: 1.0 }
+        let Some((tile, middle, within)) = found else { return FacetSample::nothing(centre) };
+        FacetSample { plane: self.plane(tile, texel, middle, within), at: centre, side: 1.0 }
     }
 
     /// The sample of a refined texel at a place of the finer grid.
@@ -45,10 +45,10 @@ impl FacetSource for FacetMap {
     fn sample(&self, at: IVec2) -> FacetSample {
         let texel = self.texel_of(at);
         let found = self.tile(texel);
-        if let Some((tile, origin, within)) = found
+        if let Some((tile, middle, within)) = found
             && let Some(block) = tile.block(within)
         {
-            return self.part(at, block.plane(origin, at - texel * self.fine as i32, self.fine));
+            return self.part(at, block.plane(middle, at - texel * self.fine as i32, self.fine));
         }
         self.whole(texel, found)
     }
@@ -57,24 +57,38 @@ impl FacetSource for FacetMap {
     #[inline(always)]
     fn each_sample(&self, rect: TexelRect, each: &mut dyn FnMut(TexelRect, &FacetSample) -> bool) {
         let (from, to) = (self.texel_of(rect.min), self.texel_of(rect.max - 1));
+        let whole = TexelRect::of_size(self.depths.view.size());
+        // A tile is looked up once for all of its texels that follow each other.
+        let mut last = (IVec2::MIN, None);
         for y in from.y..=to.y {
             for x in from.x..=to.x {
                 let texel = IVec2::new(x, y);
+                let found = if whole.contains(texel) {
+                    if last.0 != texel >> SHIFT {
+                        last = (texel >> SHIFT, self.tile(texel));
+                    }
+                    last.1.map(|(tile, middle, _)| (tile, middle, texel.as_uvec2() & (TILE - 1)))
+                } else {
+                    None
+                };
                 let first = texel * self.fine as i32;
                 let part = TexelRect::new(first, first + self.fine as i32).intersect(rect);
-                let found = self.tile(texel);
-                let goes_on = if let Some((tile, origin, within)) = found
-                    && let Some(block) = tile.block(within)
-                {
-                    part.texels().all(|at| {
-                        let sample = self.part(at, block.plane(origin, at - first, self.fine));
-                        each(TexelRect::new(at, at + 1), &sample)
-                    })
-                } else {
-                    each(part, &self.whole(texel, found))
-                };
-                if !goes_on {
-                    return;
+                let block = found.and_then(|(tile, middle, within)| Some((tile.block(within)?, middle)));
+                // One call for both kinds of texel, so that what is done with a sample is compiled into this loop.
+                let size = if block.is_some() { IVec2::ONE } else { part.max - part.min };
+                let mut at = part.min;
+                while at.y < part.max.y {
+                    let sample = match &block {
+                        Some((block, middle)) => self.part(at, block.plane(*middle, at - first, self.fine)),
+                        None => self.whole(texel, found),
+                    };
+                    if !each(TexelRect::new(at, at + size), &sample) {
+                        return;
+                    }
+                    at.x += size.x;
+                    if at.x >= part.max.x {
+                        at = IVec2::new(part.min.x, at.y + size.y);
+                    }
                 }
             }
         }
@@ -83,13 +97,13 @@ impl FacetSource for FacetMap {
     #[inline(always)]
     fn one_facet(&self, rect: TexelRect) -> Option<FacetSample> {
         let (from, to) = (self.texel_of(rect.min), self.texel_of(rect.max - 1));
-        let (tile, origin, within) = self.tile(from)?;
+        let (tile, middle, within) = self.tile(from)?;
         // In one tile, none of whose texels is beyond the map.
         let last = within.as_ivec2() + (to - from);
         if last.cmpge(IVec2::splat(TILE as i32)).any() || to.cmpge(self.depths.view.size().as_ivec2()).any() {
             return None;
         }
-        tile.is_one_facet(within, last.as_uvec2()).then(|| self.whole(from, Some((tile, origin, within))))
+        tile.is_one_facet(within, last.as_uvec2()).then(|| self.whole(from, Some((tile, middle, within))))
     }
 
     #[inline(always)]

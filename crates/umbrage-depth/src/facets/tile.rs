@@ -145,12 +145,12 @@ impl FacetTile {
         [(plane.at(middle) - base) as f32, plane.dx as f32, plane.dy as f32]
     }
 
-    /// The plane of a texel, over the map's texels, or its depth where only that is kept.
+    /// The plane of a texel, over the map's texels, or its depth where only that is kept; `middle` is the tile's middle, texels.
     #[inline(always)]
-    pub(super) fn plane(&self, origin: IVec2, at: UVec2) -> Stored {
+    pub(super) fn plane(&self, middle: DVec2, at: UVec2) -> Stored {
         let index = (at.y * TILE + at.x) as usize;
         match &self.cells {
-            Cells::Table { planes, texels } => Stored::Plane(planes.get(texels.get(index), origin)),
+            Cells::Table { planes, texels } => Stored::Plane(planes.get(texels.get(index), middle)),
             Cells::Depths(depths) => Stored::Depth(depths[index]),
             Cells::Own { base, keys, slopes } => {
                 let [dx, dy] = slopes[index].map(f64::from);
@@ -158,7 +158,7 @@ impl FacetTile {
                 if key == f64::INFINITY {
                     return Stored::Plane(NOTHING);
                 }
-                let centre = (origin + at.as_ivec2()).as_dvec2() + 0.5;
+                let centre = middle - 0.5 * f64::from(TILE) + at.as_dvec2() + 0.5;
                 Stored::Plane(Affine { c: key - dx * centre.x - dy * centre.y, dx, dy })
             }
         }
@@ -182,13 +182,26 @@ impl FacetTile {
     pub(super) fn is_one_facet(&self, first: UVec2, last: UVec2) -> bool {
         let Cells::Table { texels, .. } = &self.cells else { return false };
         let columns = (u32::MAX >> (TILE - 1 - last.x)) & (u32::MAX << first.x);
-        let refined = |y: u32| self.blocks.as_ref().is_some_and(|blocks| blocks.refined[y as usize] & columns != 0);
-        if (first.y..=last.y).any(refined) {
-            return false;
+        // Loops rather than closures of iterators, which are not always compiled into their caller.
+        if let Some(blocks) = &self.blocks {
+            for y in first.y..=last.y {
+                if blocks.refined[y as usize] & columns != 0 {
+                    return false;
+                }
+            }
         }
-        let index = |x: u32, y: u32| (y * TILE + x) as usize;
-        let own = texels.get(index(first.x, first.y));
-        texels.is_one() || (first.y..=last.y).all(|y| (first.x..=last.x).all(|x| texels.get(index(x, y)) == own))
+        if texels.is_one() {
+            return true;
+        }
+        let own = texels.get((first.y * TILE + first.x) as usize);
+        for y in first.y..=last.y {
+            for x in first.x..=last.x {
+                if texels.get((y * TILE + x) as usize) != own {
+                    return false;
+                }
+            }
+        }
+        true
     }
 
     /// Number of refined texels.
@@ -226,11 +239,11 @@ pub(super) struct Block<'a> {
 }
 
 impl Block<'_> {
-    /// The plane of the sample at a place of the block, in a tile whose upper left texel is `origin`.
+    /// The plane of the sample at a place of the block, in a tile whose middle, texels, is `middle`.
     #[inline(always)]
-    pub fn plane(&self, origin: IVec2, place: IVec2, fine: u32) -> Affine {
+    pub fn plane(&self, middle: DVec2, place: IVec2, fine: u32) -> Affine {
         let (sample, per_block) = (place.y as usize * fine as usize + place.x as usize, (fine * fine) as usize);
-        self.planes.get(self.blocks.samples.get(self.index * per_block + sample), origin)
+        self.planes.get(self.blocks.samples.get(self.index * per_block + sample), middle)
     }
 
     /// The slots that see their sample's surface, of the link from a place of the block to the right or downward; `None` where it is not kept.
@@ -257,7 +270,7 @@ pub(super) enum Stored {
 
 impl Planes {
     #[inline(always)]
-    fn get(&self, index: u32, origin: IVec2) -> Affine {
+    fn get(&self, index: u32, middle: DVec2) -> Affine {
         match self {
             Self::Exact(planes) => planes[index as usize],
             Self::Near { base, planes } => {
@@ -265,7 +278,6 @@ impl Planes {
                 if key == f64::INFINITY {
                     return NOTHING;
                 }
-                let middle = origin.as_dvec2() + 0.5 * f64::from(TILE);
                 Affine { c: base + key - dx * middle.x - dy * middle.y, dx, dy }
             }
         }

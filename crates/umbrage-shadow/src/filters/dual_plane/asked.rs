@@ -1,11 +1,12 @@
 //! A receiver asked of what knows facets: votes of samples, and the edge between those that disagree.
 
 use super::parameters::DualPlane;
+use super::voters::{LANES, Voters};
 use crate::query::answer;
 use crate::{Crossing, Probe, Query};
+use arrayvec::ArrayVec;
 use fearless_simd::Simd;
 use glam::{DVec2, IVec2, UVec2};
-use std::cell::Cell;
 use umbrage_depth::{DepthMap, FacetSample, FacetSource};
 use umbrage_plane::{Affine, Cells, TexelRect, View};
 
@@ -14,54 +15,32 @@ pub(super) struct Asked<'a, F: ?Sized> {
     pub map: &'a F,
     pub view: &'a View,
     /// The receiver's tangent plane, and how fast its key changes, over both axes together.
-    plane: Affine,
-    steep: f64,
+    pub plane: Affine,
+    pub steep: f64,
     texel: DVec2,
     /// The middle of the region's parallelogram, its half-axes, texels, and what of it is the surface.
     middle: DVec2,
     axes: [DVec2; 2],
     cells: Cells,
     /// The middle and the half-axes of the part that holds the surface.
-    part: (DVec2, [DVec2; 2]),
+    pub part: (DVec2, [DVec2; 2]),
     across: u32,
     /// What a sample of one texel's width must be passed by for its width, as a key, and for each unit of slope.
-    width: f64,
-    slope: f64,
+    pub width: f64,
+    pub slope: f64,
     /// The least width of a sample, texels.
-    least: f64,
+    pub least: f64,
     /// Roundings of what is compared.
-    rounding: f64,
+    pub rounding: f64,
     /// Change of the key per world unit along the axis of view, at the receiver.
     pub per_world: f64,
 }
 
-/// What a sample says before a place is named.
-#[derive(Clone, Copy)]
-pub(super) struct Voter {
-    /// How far the receiver's plane lies behind the sample's, as a key over texels, less what it must pass by.
-    pub behind: Affine,
-    /// The same where the sample was taken.
-    pub there: f64,
-    /// What it must pass by.
-    pub passed: f64,
-    /// What it says of the whole region, where that is one thing.
-    settled: Option<bool>,
-}
-
-impl Voter {
-    /// Calls everything lit.
-    const NOTHING: Self =
-        Self { behind: Affine::constant(-1.0), there: f64::NEG_INFINITY, passed: 0.0, settled: Some(false) };
-
-    /// Whether the sample calls a place of the region dark.
-    #[inline(always)]
-    pub fn dark(&self, at: DVec2) -> bool {
-        self.settled.unwrap_or_else(|| self.there > 0.0 && self.behind.at(at) > 0.0)
-    }
-}
-
 /// Samples along each side of the region that are kept at hand; larger regions ask the map for each place.
-const AT_HAND: usize = 9;
+const AT_HAND: usize = 12;
+
+/// Crossings that are remembered: more than an edge through a region has.
+const CROSSED: usize = 16;
 
 /// How often the cell between two places of different answers is halved to find the edge.
 const HALVINGS: u32 = 3;
@@ -73,15 +52,18 @@ const MOST_AGREED: f64 = 16.0;
 pub(super) const FAR: f64 = 1e9;
 
 /// The samples at up to `N` places of the finer grid, as many as lie under a region or at the corners of a cell.
-pub(super) struct Grid<'a, 'b, F: ?Sized, const N: usize> {
+pub(super) struct Grid<'a, 'b, F: ?Sized, const N: usize, const CHUNKS: usize> {
     asked: &'b Asked<'a, F>,
     rect: TexelRect,
-    /// What the samples say, each once.
-    voters: [Voter; N],
+    /// Places of a row.
+    columns: usize,
+    /// What the samples say, each once, and how many there are.
+    voters: ArrayVec<Voters, CHUNKS>,
+    count: usize,
     /// For each place, row by row, whose it is.
     of: [u8; N],
-    /// Where the way from a place to its neighbour to the right, and downward, is crossed, once that was asked; NaN before.
-    crossed: [[Cell<f64>; 2]; N],
+    /// Crossings that were looked for before, by their place and whether they lead downward.
+    crossed: ArrayVec<((usize, bool), f64), CROSSED>,
 }
 
 impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
@@ -139,29 +121,29 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
             return (f32::from(u8::from(dark)), 1);
         }
         let wide = (high - low).max_element();
-        let small = wide <= AT_HAND as f64;
+        let looked = rect.area().min(4 * (self.across * self.across) as usize) as u32;
+        if wide <= AT_HAND as f64 {
+            let mut grid = Grid::<F, { AT_HAND * AT_HAND }, { AT_HAND * AT_HAND / LANES }>::empty(self, rect);
+            let agreed = grid.fill();
+            if inside && let Some(dark) = agreed {
+                return (f32::from(u8::from(dark)), grid.count as u32);
+            }
+            return (grid.fraction(inside), looked);
+        }
         if inside && wide <= MOST_AGREED * fine {
             let (agreed, looked) = self.agreed(rect);
             if let Some(dark) = agreed {
                 return (f32::from(u8::from(dark)), looked);
             }
         }
-        let looked = rect.area().min(4 * (self.across * self.across) as usize) as u32;
-        (
-            if small {
-                Grid::<F, { AT_HAND * AT_HAND }>::new(self, rect).fraction(inside)
-            } else {
-                self.one_by_one(inside)
-            },
-            looked,
-        )
+        (self.one_by_one(inside), looked)
     }
 
     /// The answer where all samples of a rectangle see one facet, that answers alike for each of them and for all places of the region.
     #[inline(always)]
     fn of_one_plane(&self, rect: TexelRect, reach: DVec2) -> Option<bool> {
         let sample = self.map.one_facet(rect)?;
-        let Voter { behind, .. } = self.voter(&sample);
+        let behind = Voters::new(self, |_| sample).behind(0);
         // Wherever the samples of these places were taken, and the region.
         let side = 1.0 / f64::from(self.map.fine());
         let low = (rect.min.as_dvec2() * side - 1.0).min(self.part.0 - reach);
@@ -174,46 +156,17 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
     }
 
     /// The answer of all samples of a rectangle for all places of the region, where it is one; and how many were looked at.
-    #[inline(always)]
+    #[inline(never)]
     fn agreed(&self, rect: TexelRect) -> (Option<bool>, u32) {
         let (mut agreed, mut looked) = (None, 0);
         self.map.each_sample(rect, &mut |_, sample| {
             looked += 1;
-            let said = self.voter(sample).settled;
+            let said = Voters::new(self, |_| *sample).settled(0);
             let goes_on = said.is_some() && (looked == 1 || said == agreed);
             agreed = if goes_on { said } else { None };
             goes_on
         });
         (agreed, looked)
-    }
-
-    /// What a sample says of the whole region, where that is one thing, by how far its places lie behind the sample's plane.
-    #[inline(always)]
-    fn settled(&self, behind: &Affine, there: f64) -> Option<bool> {
-        let (centre, axes) = self.part;
-        let middle = behind.at(centre);
-        let along = |axis: DVec2| (behind.dx * axis.x + behind.dy * axis.y).abs();
-        // A little more than the region, so that no rounding decides.
-        let spread = (along(axes[0]) + along(axes[1])) * (1.0 + 1e-9);
-        let dark = there > 0.0 && middle - spread > 0.0;
-        let lit = there <= 0.0 || middle + spread <= 0.0;
-        (dark != lit).then_some(dark)
-    }
-
-    #[inline(always)]
-    pub fn voter(&self, sample: &FacetSample) -> Voter {
-        let plane = &sample.plane;
-        if plane.c == f64::INFINITY {
-            return Voter::NOTHING;
-        }
-        let gentle = self.steep.min(plane.dx.abs() + plane.dy.abs());
-        // Planes of refined maps are three floats about the middle of a tile.
-        let rounding = self.rounding + 1e-6 * gentle.min(self.width);
-        let passed = rounding + (self.width + self.slope * gentle) * sample.side.max(self.least);
-        let behind =
-            Affine { c: self.plane.c - plane.c - passed, dx: self.plane.dx - plane.dx, dy: self.plane.dy - plane.dy };
-        let there = behind.at(sample.at);
-        Voter { behind, there, passed, settled: self.settled(&behind, there) }
     }
 
     /// The answer of a place that the view's rules settle.
@@ -226,16 +179,17 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
     /// two that do not the edge is looked for. `dark` is asked about places that the view's rules do not settle.
     #[inline(always)]
     pub fn share(&self, inside: bool, mut dark: impl FnMut(DVec2) -> bool) -> f32 {
-        let mut answer = |at: DVec2| {
-            let ruled = if inside { None } else { self.ruled(at) };
-            ruled.map_or_else(|| dark(at), |dark| dark > 0.0)
+        let mut answer = |at: DVec2| match if inside { None } else { self.ruled(at) } {
+            Some(ruled) => ruled > 0.0,
+            None => dark(at),
         };
         if self.across == 1 {
             return f32::from(u8::from(answer(self.texel)));
         }
         // Lines go across the edge rather than along it.
         let (centre, [x, y]) = self.part;
-        let [a, b, c, d] = [-x - y, x - y, y - x, x + y].map(|by| answer(centre + by));
+        let [a, b] = [answer(centre + (-x - y)), answer(centre + (x - y))];
+        let [c, d] = [answer(centre + (y - x)), answer(centre + (x + y))];
         let along_x = !(a == b && c == d && a != c);
         let [x, y] = self.axes;
         let (along, beside) = if along_x { (x, y) } else { (y, x) };
@@ -278,54 +232,94 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
     fn one_by_one(&self, inside: bool) -> f32 {
         self.share(inside, |at| {
             let corner = (at * f64::from(self.map.fine()) - 0.5).floor().as_ivec2();
-            Grid::<F, 4>::new(self, TexelRect::new(corner, corner + 2)).dark(at)
+            let mut grid = Grid::<F, 4, 1>::empty(self, TexelRect::new(corner, corner + 2));
+            grid.fill();
+            grid.dark(at)
         })
     }
 }
 
-impl<'a, 'b, F: FacetSource + ?Sized, const N: usize> Grid<'a, 'b, F, N> {
+impl<'a, 'b, F: FacetSource + ?Sized, const N: usize, const CHUNKS: usize> Grid<'a, 'b, F, N, CHUNKS> {
+    /// Without samples. They are [filled](Self::fill) in where the grid stands: it is large, and moving it would cost as much as an easy region.
     #[inline(always)]
-    pub fn new(asked: &'b Asked<'a, F>, rect: TexelRect) -> Self {
+    pub fn empty(asked: &'b Asked<'a, F>, rect: TexelRect) -> Self {
         let columns = (rect.max.x - rect.min.x) as usize;
-        let crossed = [const { [const { Cell::new(f64::NAN) }; 2] }; N];
-        let mut grid = Self { asked, rect, voters: [Voter::NOTHING; N], of: [0; N], crossed };
-        let mut count = 0;
+        Self {
+            asked,
+            rect,
+            columns,
+            voters: ArrayVec::new_const(),
+            count: 0,
+            of: [0; N],
+            crossed: ArrayVec::new_const(),
+        }
+    }
+
+    /// Takes the samples of its rectangle, and returns their answer for all places of the region, where it is one.
+    #[inline(always)]
+    pub fn fill(&mut self) -> Option<bool> {
+        let (asked, rect, columns) = (self.asked, self.rect, self.columns);
+        let mut samples = ArrayVec::<FacetSample, N>::new_const();
         asked.map.each_sample(rect, &mut |part, sample| {
             let (from, to) = ((part.min - rect.min).as_usizevec2(), (part.max - rect.min).as_usizevec2());
-            for row in from.y..to.y {
-                grid.of[row * columns + from.x..row * columns + to.x].fill(count as u8);
+            if to.x - from.x == 1 && to.y - from.y == 1 {
+                self.of[from.y * columns + from.x] = samples.len() as u8;
+            } else {
+                for row in from.y..to.y {
+                    self.of[row * columns + from.x..row * columns + to.x].fill(samples.len() as u8);
+                }
             }
-            grid.voters[count] = asked.voter(sample);
-            count += 1;
+            samples.push(*sample);
             true
         });
-        grid
+        self.count = samples.len();
+        let mut said = [false; 3];
+        for samples in samples.chunks(LANES) {
+            let voters = Voters::new(
+                asked,
+                #[inline(always)]
+                |i| samples[i.min(samples.len() - 1)],
+            );
+            for lane in 0..LANES {
+                said[voters.settled(lane).map_or(2, usize::from)] = true;
+            }
+            self.voters.push(voters);
+        }
+        match said {
+            [lit, dark, false] if lit != dark => Some(dark),
+            _ => None,
+        }
     }
 
     #[inline(never)]
-    fn fraction(&self, inside: bool) -> f32 {
-        self.asked.share(inside, |at| self.dark(at))
+    fn fraction(&mut self, inside: bool) -> f32 {
+        self.asked.share(
+            inside,
+            #[inline(always)]
+            |at| self.dark(at),
+        )
     }
 
     /// The place of a cell's corner, by its number row by row, among those of the grid.
     #[inline(always)]
     fn corner(&self, cell: UVec2, corner: usize) -> usize {
-        let columns = (self.rect.max.x - self.rect.min.x) as usize;
-        (cell.y as usize + (corner >> 1)) * columns + cell.x as usize + (corner & 1)
+        (cell.y as usize + (corner >> 1)) * self.columns + cell.x as usize + (corner & 1)
     }
 
     /// Whether a place is dark.
     #[inline(always)]
-    pub fn dark(&self, at: DVec2) -> bool {
+    pub fn dark(&mut self, at: DVec2) -> bool {
         let place = at * f64::from(self.asked.map.fine()) - (self.rect.min.as_dvec2() + 0.5);
         // Roundings of a place at the region's rim.
         let cell = place.as_uvec2().min((self.rect.max - self.rect.min - 2).as_uvec2());
-        let corners = [0, 1, 2, 3].map(|corner| self.of[self.corner(cell, corner)]);
-        let vote = |k: usize| self.voters[usize::from(corners[k])].dark(at);
-        if corners == [corners[0]; 4] {
-            return vote(0);
+        let first = self.corner(cell, 0);
+        let below = first + self.columns;
+        let [a, b, c, d] = [self.of[first], self.of[first + 1], self.of[below], self.of[below + 1]];
+        let vote = |voter: u8| self.voters[usize::from(voter) / LANES].dark(usize::from(voter) % LANES, at);
+        if a == b && a == c && a == d {
+            return vote(a);
         }
-        let votes = [vote(0), vote(1), vote(2), vote(3)];
+        let votes = [vote(a), vote(b), vote(c), vote(d)];
         if votes == [votes[0]; 4] {
             return votes[0];
         }
@@ -334,10 +328,9 @@ impl<'a, 'b, F: FacetSource + ?Sized, const N: usize> Grid<'a, 'b, F, N> {
 
     /// Marching squares: on which side of the edge a place is, where the corners disagree. `within` the cell, 0 to 1 from its upper left
     /// corner.
-    fn shape(&self, cell: UVec2, votes: [bool; 4], within: DVec2) -> bool {
+    fn shape(&mut self, cell: UVec2, votes: [bool; 4], within: DVec2) -> bool {
         let [a, b, c, d] = votes;
         let dark = votes.iter().filter(|vote| **vote).count();
-        let crossed = |from: usize, to: usize| self.crossed(cell, from, to);
         match dark {
             // One corner stands alone.
             1 | 3 => {
@@ -346,12 +339,12 @@ impl<'a, 'b, F: FacetSource + ?Sized, const N: usize> Grid<'a, 'b, F, N> {
             }
             // The upper and lower sides are crossed.
             _ if a == c && b == d => {
-                let (upper, lower) = (crossed(0, 1), crossed(2, 3));
+                let (upper, lower) = (self.crossed(cell, 0, 1), self.crossed(cell, 2, 3));
                 if within.x < upper + (lower - upper) * within.y { a } else { b }
             }
             // The left and right sides are.
             _ if a == b && c == d => {
-                let (left, right) = (crossed(0, 2), crossed(1, 3));
+                let (left, right) = (self.crossed(cell, 0, 2), self.crossed(cell, 1, 3));
                 if within.y < left + (right - left) * within.x { a } else { c }
             }
             // Opposite corners agree: the middle is in shadow.
@@ -361,8 +354,8 @@ impl<'a, 'b, F: FacetSource + ?Sized, const N: usize> Grid<'a, 'b, F, N> {
 
     /// Whether a place lies beyond the line that cuts a corner of a cell off.
     #[inline(always)]
-    fn beyond(&self, cell: UVec2, corner: usize, within: DVec2) -> bool {
-        let from_corner = |to: usize| {
+    fn beyond(&mut self, cell: UVec2, corner: usize, within: DVec2) -> bool {
+        let mut from_corner = |to: usize| {
             let place = self.crossed(cell, corner.min(to), corner.max(to));
             if corner < to { place } else { 1.0 - place }
         };
@@ -373,14 +366,17 @@ impl<'a, 'b, F: FacetSource + ?Sized, const N: usize> Grid<'a, 'b, F, N> {
         x * q + y * p >= p * q
     }
 
-    /// [`Grid::crossing`], found once.
-    #[inline(always)]
-    fn crossed(&self, cell: UVec2, from: usize, to: usize) -> f64 {
-        let known = &self.crossed[self.corner(cell, from)][usize::from(to - from == 2)];
-        if known.get().is_nan() {
-            known.set(self.crossing(cell, from, to).place());
+    /// [`Grid::crossing`], found once for each of the first [`CROSSED`] sides.
+    fn crossed(&mut self, cell: UVec2, from: usize, to: usize) -> f64 {
+        let side = (self.corner(cell, from), to - from == 2);
+        if let Some((_, place)) = self.crossed.iter().find(|(known, _)| *known == side) {
+            return *place;
         }
-        known.get()
+        let place = self.crossing(cell, from, to).place();
+        if !self.crossed.is_full() {
+            self.crossed.push((side, place));
+        }
+        place
     }
 
     /// Where a side of a cell is crossed, from 0 at `from`, its upper or left end, to 1: where the map saw the surface change, or where the
@@ -393,7 +389,8 @@ impl<'a, 'b, F: FacetSource + ?Sized, const N: usize> Grid<'a, 'b, F, N> {
         }
         // Whether the receiver is behind a plane or before it is not known where it lies on it.
         let behind = |corner: usize| {
-            let Voter { there, passed, .. } = self.voters[usize::from(self.of[self.corner(cell, corner)])];
+            let voter = usize::from(self.of[self.corner(cell, corner)]);
+            let (there, passed) = self.voters[voter / LANES].there(voter % LANES);
             Some(there + passed).filter(|behind| behind.is_finite() && behind.abs() > passed)
         };
         match (behind(from), behind(to)) {

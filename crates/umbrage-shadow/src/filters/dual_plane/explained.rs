@@ -1,6 +1,7 @@
 //! Why a receiver is lit or dark: every place of its region, what the samples around it say, and where the edge runs between them.
 
-use super::asked::{Asked, FAR, Grid, Voter};
+use super::asked::{Asked, FAR, Grid};
+use super::voters::Voters;
 use crate::{Crossing, PlaceJudged, Probe, Vote};
 use glam::{DVec2, IVec2, UVec2};
 use umbrage_depth::{FacetSample, FacetSource};
@@ -24,7 +25,8 @@ pub(super) fn explain<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, probe: &mut
 
 fn judged<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, at: DVec2) -> PlaceJudged {
     let corner = (at * f64::from(asked.map.fine()) - 0.5).floor().as_ivec2();
-    let grid = Grid::<F, 4>::new(asked, TexelRect::new(corner, corner + 2));
+    let mut grid = Grid::<F, 4, 1>::empty(asked, TexelRect::new(corner, corner + 2));
+    grid.fill();
     let votes = [0, 1, 2, 3].map(|k| {
         let sample = asked.map.sample(corner + IVec2::new(k & 1, k >> 1));
         vote(asked, &sample, at)
@@ -37,13 +39,14 @@ fn judged<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, at: DVec2) -> PlaceJudg
 }
 
 fn vote<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, sample: &FacetSample, at: DVec2) -> Vote {
-    let voter: Voter = asked.voter(sample);
-    let world = |key: f64| if sample.plane.c == f64::INFINITY { f64::NEG_INFINITY } else { key / asked.per_world };
+    let (voters, nothing) = (Voters::new(asked, |_| *sample), sample.plane.c == f64::INFINITY);
+    let (there, passed) = voters.there(0);
+    let world = |key: f64| if nothing { f64::NEG_INFINITY } else { key / asked.per_world };
     Vote {
         sample: *sample,
-        at_sample: world(voter.there + voter.passed),
-        at_place: world(voter.behind.at(at) + voter.passed),
-        passed: voter.passed / asked.per_world,
-        dark: voter.dark(at),
+        at_sample: world(there + passed),
+        at_place: world(voters.behind(0).at(at) + passed),
+        passed: if nothing { 0.0 } else { passed / asked.per_world },
+        dark: voters.dark(0, at),
     }
 }

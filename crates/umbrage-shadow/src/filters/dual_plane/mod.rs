@@ -3,6 +3,7 @@
 mod asked;
 mod explained;
 mod parameters;
+mod voters;
 
 pub use parameters::DualPlane;
 

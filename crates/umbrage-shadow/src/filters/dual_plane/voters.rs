@@ -1,0 +1,89 @@
+//! What samples say of a receiver, several at a time.
+
+use super::asked::Asked;
+use glam::DVec2;
+use umbrage_depth::FacetSample;
+use umbrage_plane::Affine;
+
+/// Samples that are worked on together.
+pub(super) const LANES: usize = 4;
+
+/// A number of each.
+type Lanes = [f64; LANES];
+
+/// What [`LANES`] samples say before a place is named: arrays in place of numbers, of which a compiler makes vector instructions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Voters {
+    /// How far the receiver's plane lies behind each sample's, as a key over texels, less what it must pass by: [`Affine`], number by number.
+    behind: [Lanes; 3],
+    /// The same where the sample was taken.
+    there: Lanes,
+    /// What it must pass by.
+    passed: Lanes,
+    /// Whether it calls all places of the region dark, or lit. It calls some dark and some lit where neither is true; where both are,
+    /// a number was NaN or a plane grazes the other.
+    all_dark: [bool; LANES],
+    all_lit: [bool; LANES],
+}
+
+impl Voters {
+    /// Each sample as if it were alone. Nothing, a plane infinitely far, calls everything lit.
+    #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "one index names a lane in several arrays")]
+    pub fn new<F: ?Sized>(asked: &Asked<'_, F>, sample: impl Fn(usize) -> FacetSample) -> Self {
+        let (mut c, mut dx, mut dy) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let (mut x, mut y, mut side) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        for i in 0..LANES {
+            let sample = sample(i);
+            (c[i], dx[i], dy[i]) = (sample.plane.c, sample.plane.dx, sample.plane.dy);
+            (x[i], y[i], side[i]) = (sample.at.x, sample.at.y, sample.side);
+        }
+        let (mut there, mut passed) = ([0.0; LANES], [0.0; LANES]);
+        let (mut all_dark, mut all_lit) = ([false; LANES], [false; LANES]);
+        for i in 0..LANES {
+            let gentle = asked.steep.min(dx[i].abs() + dy[i].abs());
+            // Planes of refined maps are three floats about the middle of a tile.
+            let rounding = asked.rounding + 1e-6 * gentle.min(asked.width);
+            passed[i] = rounding + (asked.width + asked.slope * gentle) * side[i].max(asked.least);
+            (c[i], dx[i], dy[i]) = (asked.plane.c - c[i] - passed[i], asked.plane.dx - dx[i], asked.plane.dy - dy[i]);
+            there[i] = Affine { c: c[i], dx: dx[i], dy: dy[i] }.at(DVec2::new(x[i], y[i]));
+        }
+        let (centre, axes) = asked.part;
+        for i in 0..LANES {
+            let middle = Affine { c: c[i], dx: dx[i], dy: dy[i] }.at(centre);
+            let along = |axis: DVec2| (dx[i] * axis.x + dy[i] * axis.y).abs();
+            // A little more than the region, so that no rounding decides.
+            let spread = (along(axes[0]) + along(axes[1])) * (1.0 + 1e-9);
+            all_dark[i] = (there[i] > 0.0) & (middle - spread > 0.0);
+            all_lit[i] = (there[i] <= 0.0) | (middle + spread <= 0.0);
+        }
+        Self { behind: [c, dx, dy], there, passed, all_dark, all_lit }
+    }
+
+    /// What a sample says of the whole region, where that is one thing.
+    #[inline(always)]
+    pub fn settled(&self, lane: usize) -> Option<bool> {
+        let (dark, lit) = (self.all_dark[lane], self.all_lit[lane]);
+        (dark != lit).then_some(dark)
+    }
+
+    /// Whether a sample calls a place of the region dark.
+    #[inline(always)]
+    pub fn dark(&self, lane: usize, at: DVec2) -> bool {
+        let (dark, lit) = (self.all_dark[lane], self.all_lit[lane]);
+        if dark == lit { self.there[lane] > 0.0 && self.behind(lane).at(at) > 0.0 } else { dark }
+    }
+
+    /// How far the receiver's plane lies behind a sample's, as a key over texels, less what it must pass by.
+    #[inline(always)]
+    pub fn behind(&self, lane: usize) -> Affine {
+        let [c, dx, dy] = &self.behind;
+        Affine { c: c[lane], dx: dx[lane], dy: dy[lane] }
+    }
+
+    /// The same where the sample was taken, and what it must pass by; −∞ where there is nothing.
+    #[inline(always)]
+    pub fn there(&self, lane: usize) -> (f64, f64) {
+        (self.there[lane], self.passed[lane])
+    }
+}
