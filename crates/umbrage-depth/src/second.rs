@@ -34,11 +34,10 @@ impl DepthRule for Second {
     }
 }
 
+/// Without a branch, so that several cells become one vector.
 #[inline(always)]
 fn insert(cell: &mut [f32; 2], key: f32) {
-    if key < cell[0] {
-        *cell = [key, cell[0]];
-    } else if key < cell[1] {
-        cell[1] = key;
-    }
+    let [first, second] = *cell;
+    let later = if key < second { key } else { second };
+    *cell = if key < first { [key, first] } else { [first, later] };
 }

@@ -85,6 +85,7 @@ impl Bins {
     ///
     /// The facet's key is exact on the triangle's plane. Only where the plane is so edge-on that 1/256 texel leads out of the triangle's range of
     /// keys, it is the mean of its corners' keys everywhere. Keys nearer than the near plane are not clamped here.
+    #[inline(always)]
     pub fn tile(&self, tile: UVec2, mut sink: impl FnMut(&Facet, &Coverage)) {
         let list = self.list(tile);
         if list.is_empty() {

@@ -24,6 +24,12 @@ pub struct Coverage {
 }
 
 impl Coverage {
+    /// How many texels are covered.
+    #[inline(always)]
+    pub fn count(&self) -> u32 {
+        self.rows[usize::from(self.first)..usize::from(self.end)].iter().map(|row| row.count_ones()).sum()
+    }
+
     /// From rows of which only those of `within` may have a bit set; `None` when none has.
     fn new(rows: [u32; 32], within: Range<i32>) -> Option<Self> {
         let first = within.clone().find(|&row| rows[row as usize] != 0)?;

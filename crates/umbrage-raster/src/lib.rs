@@ -48,7 +48,7 @@ mod spans;
 
 pub use bins::Bins;
 pub use coverage::Coverage;
-pub use fragments::each_fragment;
+pub use fragments::{RUN, each_fragment, each_run};
 pub use gathered::{Gathered, Seen};
 pub use spans::Lines;
 
