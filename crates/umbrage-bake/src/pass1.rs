@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use umbrage_depth::{DepthRule, Reduction, Stored, Tile, Tiled};
 use umbrage_plane::{Facet, Facing, TexelRect, View, ViewError, vectorized};
-use umbrage_raster::{BIN, Bins, Coverage, Cull, RUN, Stats, each_fragment, each_run};
+use umbrage_raster::{BIN, Bins, Coverage, Cull, Stats, each_fragment, each_run};
 
 /// A depth map, and what became of the triangles.
 #[derive(Clone, Debug)]
@@ -117,11 +117,14 @@ impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
             |decode| {
                 let rows = cells.chunks_exact(BIN as usize).zip(depths.chunks_exact_mut(BIN as usize));
                 for (y, (cells, depths)) in (0..).zip(rows) {
-                    for (x, (cell, depth)) in (0..).zip(cells.iter().zip(depths)) {
+                    // Nothing but this loop knows the row, so that what the rule holds need not be read again for each texel.
+                    let mut row = [f32::INFINITY; BIN as usize];
+                    for (x, (cell, depth)) in (0..).zip(cells.iter().zip(&mut row)) {
                         let at = sampling.position(origin + IVec2::new(x, y));
                         // Clamped only now: a rule must tell surfaces apart that are all nearer than the near plane.
                         *depth = self.rule.resolve(*cell, decode, at).max(decode.depth(nearest, at));
                     }
+                    depths.copy_from_slice(&row);
                 }
             },
         );
@@ -141,6 +144,9 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
         let mut cells: Option<Box<[R::Cell; CELLS]>> = None;
         let mut fragments = 0;
         for pass in 0..R::PASSES {
+            if pass > 0 && cells.as_ref().is_none_or(|cells| self.rule.settled(cells.as_slice())) {
+                break;
+            }
             for part in 0..axis * axis {
                 let part = tile * axis + UVec2::new(part % axis, part / axis);
                 self.masks.tile(
@@ -176,9 +182,8 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
             #[inline(always)]
             |first, keys| {
                 // Keys of NaN, which are those of the texels that are not covered, change nothing.
-                for (cell, key) in cells[first..first + RUN].iter_mut().zip(keys) {
-                    self.rule.add(pass, cell, *key, front, facet);
-                }
+                let cells = cells[first..].first_chunk_mut().expect("a run ends where its row does, or before");
+                self.rule.add_run(pass, cells, keys, front, facet);
             },
         );
     }

@@ -19,7 +19,7 @@ impl Reduction for BackFace {
     fn add(&self, _pass: u32, cell: &mut f32, key: f32, front: bool, facet: &Facet) {
         if !front || facet.sheet {
             // The smaller without a branch, so that several cells become one vector; of NaN and a number, the number.
-            *cell = cell.min(key);
+            *cell = key.min(*cell);
         }
     }
 }

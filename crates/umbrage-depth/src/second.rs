@@ -1,4 +1,4 @@
-use crate::{DepthRule, Reduction, Stored};
+use crate::{DepthRule, RUN, Reduction, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -21,6 +21,24 @@ impl Reduction for Second {
             insert(cell, key);
         }
     }
+
+    #[inline(always)]
+    fn add_run(&self, _pass: u32, cells: &mut [[f32; 2]; RUN], keys: &[f32; RUN], _front: bool, facet: &Facet) {
+        let (mut first, mut second) = ([0.0; RUN], [0.0; RUN]);
+        for i in 0..RUN {
+            [first[i], second[i]] = cells[i];
+        }
+        for _ in 0..=u32::from(facet.sheet) {
+            for i in 0..RUN {
+                let later = if keys[i] < second[i] { keys[i] } else { second[i] };
+                second[i] = if keys[i] < first[i] { first[i] } else { later };
+                first[i] = if keys[i] < first[i] { keys[i] } else { first[i] };
+            }
+        }
+        for i in 0..RUN {
+            cells[i] = [first[i], second[i]];
+        }
+    }
 }
 
 impl DepthRule for Second {
@@ -34,10 +52,11 @@ impl DepthRule for Second {
     }
 }
 
-/// Without a branch, so that several cells become one vector.
 #[inline(always)]
 fn insert(cell: &mut [f32; 2], key: f32) {
-    let [first, second] = *cell;
-    let later = if key < second { key } else { second };
-    *cell = if key < first { [key, first] } else { [first, later] };
+    if key < cell[0] {
+        *cell = [key, cell[0]];
+    } else if key < cell[1] {
+        cell[1] = key;
+    }
 }

@@ -120,6 +120,13 @@ impl View {
 
     /// The plane through `eye_point` with `eye_normal` (need not be unit) as a key over texels; `None` when it is edge-on to the light, so that no key exists (spec D-1, D-3).
     pub fn affine(&self, eye_point: DVec3, eye_normal: DVec3) -> Option<Affine> {
+        let plane = self.plane(eye_point, eye_normal);
+        (plane.c.is_finite() && plane.dx.is_finite() && plane.dy.is_finite()).then_some(plane)
+    }
+
+    /// [`View::affine`] of any plane: of one that is edge-on to the light, it has a component that is not finite.
+    #[inline(always)]
+    pub fn plane(&self, eye_point: DVec3, eye_normal: DVec3) -> Affine {
         let size = self.size.as_dvec2();
         let through = eye_normal.dot(eye_point);
         let plane = match self.projection {
@@ -143,8 +150,7 @@ impl View {
                 }
             }
         };
-        let plane = if self.kind == Kind::Screen { self.screen_plane(plane) } else { plane };
-        (plane.c.is_finite() && plane.dx.is_finite() && plane.dy.is_finite()).then_some(plane)
+        if self.kind == Kind::Screen { self.screen_plane(plane) } else { plane }
     }
 
     /// The plane over this view's texels of a plane over another's that stands at the same place, both in perspective and of a kind whose keys

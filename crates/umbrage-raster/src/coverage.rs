@@ -5,7 +5,7 @@
 //! of its two ends alone, so two polygons that share an edge never both claim a sample on it, and never both leave it.
 
 use crate::BIN;
-use crate::setup::{SUBTEXELS, sampled};
+use crate::setup::{Reach, SUBTEXELS, bounds};
 use glam::{IVec2, UVec2};
 use std::ops::Range;
 use umbrage_plane::{Sampling, TexelRect};
@@ -58,6 +58,37 @@ impl Edge {
     }
 }
 
+/// Triangles up to this width and height, in 1/256 texel, are covered in 32-bit numbers: of a tile's texels and 64 more, products of
+/// coordinates and of sizes stay below 2²⁹.
+const NARROW: i32 = 64 * SUBTEXELS;
+
+/// Where an edge of a narrow triangle is crossed, from a row on downward.
+struct Crossing {
+    /// [`Edge::ahead`] at the first column of the next row, its change from row to row, and from column to column to the left.
+    ahead: i32,
+    step: i32,
+    width: i32,
+}
+
+impl Crossing {
+    /// Of the edge from `top` to `bottom`, relative to the first sample.
+    #[inline(always)]
+    fn of(top: IVec2, bottom: IVec2, row: i32) -> Self {
+        let along = bottom - top;
+        let ahead = along.x * (row * SUBTEXELS - top.y) + along.y * top.x;
+        Self { ahead, step: along.x * SUBTEXELS, width: along.y * SUBTEXELS }
+    }
+
+    /// The columns from whose samples the edge is crossed in this row. Then the next row's turn comes.
+    #[inline(always)]
+    fn next(&mut self) -> u32 {
+        // ⌈ahead / width⌉ of them.
+        let upward = (self.ahead + self.width - 1).max(0) as u32;
+        self.ahead += self.step;
+        below((upward / self.width as u32) as i32)
+    }
+}
+
 /// A tile's samples.
 pub(crate) struct Samples {
     /// The tile's upper left corner, in texels.
@@ -90,11 +121,56 @@ impl Samples {
     }
 
     /// The samples inside a polygon; `None` when there are none.
+    #[inline(always)]
     pub fn inside(&self, corners: &[IVec2]) -> Option<Coverage> {
+        if let (Sampling::Centre, &[a, b, c]) = (self.sampling, corners) {
+            let (low, high) = bounds(corners);
+            if (high - low).max_element() <= NARROW {
+                return self.narrow([a, b, c]);
+            }
+        }
+        self.of_any(corners)
+    }
+
+    /// [`Samples::inside`] of any polygon.
+    #[inline(never)]
+    fn of_any(&self, corners: &[IVec2]) -> Option<Coverage> {
         match self.sampling {
             Sampling::Centre => self.centres(corners),
             Sampling::Jittered { .. } => self.jittered(corners),
         }
+    }
+
+    /// [`Samples::centres`] of a triangle that is at most [`NARROW`] wide and high, in numbers of half the width.
+    #[inline(always)]
+    fn narrow(&self, [a, b, c]: [IVec2; 3]) -> Option<Coverage> {
+        // From above downward, relative to the first sample: samples then lie at multiples of 256.
+        let origin = self.origin * SUBTEXELS + SUBTEXELS / 2;
+        let sorted = |a: IVec2, b: IVec2| if a.y <= b.y { (a, b) } else { (b, a) };
+        let (a, b) = sorted(a - origin, b - origin);
+        let (b, c) = sorted(b, c - origin);
+        let (a, b) = sorted(a, b);
+        // Every row is crossed by the longest edge and by one of the others.
+        let row = |corner: IVec2| ((corner.y + SUBTEXELS - 1) >> 8).clamp(self.rows.start, self.rows.end);
+        let (from, middle, to) = (row(a), row(b), row(c));
+        if from == to || a.x.max(b.x).max(c.x) <= 0 || a.x.min(b.x).min(c.x) > (SIDE - 1) * SUBTEXELS {
+            return None;
+        }
+        let mut rows = [0; SIDE as usize];
+        let (mut first, mut end) = (SIDE, 0);
+        let mut longest = Crossing::of(a, c, from);
+        for (mut other, within) in [(Crossing::of(a, b, from), from..middle), (Crossing::of(b, c, middle), middle..to)]
+        {
+            for row in within {
+                let covered = (longest.next() ^ other.next()) & self.columns;
+                rows[row as usize & (SIDE as usize - 1)] = covered;
+                if covered != 0 {
+                    first = first.min(row);
+                    end = row + 1;
+                }
+            }
+        }
+        (end > 0).then_some(Coverage { rows, first: first as u8, end: end as u8 })
     }
 
     fn edges<'a>(&self, corners: &'a [IVec2]) -> impl Iterator<Item = Edge> + use<'a> {
@@ -127,7 +203,7 @@ impl Samples {
     }
 
     fn jittered(&self, corners: &[IVec2]) -> Option<Coverage> {
-        let touched = sampled(self.sampling, corners);
+        let touched = Reach::Samples(self.sampling).texels(bounds(corners));
         let (low, high) = (touched.min - self.origin, touched.max - self.origin);
         let columns = below(high.x) & !below(low.x) & self.columns;
         let within = low.y.max(self.rows.start)..high.y.min(self.rows.end);

@@ -43,12 +43,11 @@ pub fn each_run(
     mut each: impl FnMut(usize, &[f32; RUN]),
 ) {
     for row in coverage.first..coverage.end {
-        let bits = coverage.rows[usize::from(row)];
-        for run in 0..BIN as usize / RUN {
+        let mut bits = coverage.rows[usize::from(row)];
+        while bits != 0 {
+            let run = bits.trailing_zeros() as usize / RUN;
             let covered = bits >> (run * RUN) & 0xff;
-            if covered == 0 {
-                continue;
-            }
+            bits &= !(0xff << (run * RUN));
             let texel = origin + IVec2::new((run * RUN) as i32, i32::from(row));
             let mut keys = run_keys(view.sampling(), &facet.plane, texel);
             for (lane, key) in keys.iter_mut().enumerate() {

@@ -39,8 +39,10 @@
 #![warn(missing_debug_implementations)]
 
 mod bins;
+mod blocks;
 mod clip;
 mod coverage;
+mod eight;
 mod fragments;
 mod gathered;
 mod setup;
