@@ -3,7 +3,7 @@ use crate::masks::Masks;
 use glam::{DVec2, IVec2, UVec2};
 use rayon::prelude::*;
 use std::sync::Arc;
-use umbrage_depth::{DepthRule, Reduction, Stored, Tile, Tiled};
+use umbrage_depth::{DepthRule, RUN, Reduction, Stored, Tile, Tiled};
 use umbrage_plane::{Facet, Facing, TexelRect, View, ViewError, vectorized};
 use umbrage_raster::{BIN, Bins, Coverage, Cull, Stats, each_fragment, each_run};
 
@@ -174,6 +174,7 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     #[inline(always)]
     fn add_runs(&self, pass: u32, cells: &mut [R::Cell; CELLS], tile: UVec2, facet: &Facet, coverage: &Coverage) {
         let front = facet.facing == Facing::Front;
+        let (runs, _) = cells.as_chunks_mut::<RUN>();
         each_run(
             self.fine,
             (tile * BIN).as_ivec2(),
@@ -182,8 +183,7 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
             #[inline(always)]
             |first, keys| {
                 // Keys of NaN, which are those of the texels that are not covered, change nothing.
-                let cells = cells[first..].first_chunk_mut().expect("a run ends where its row does, or before");
-                self.rule.add_run(pass, cells, keys, front, facet);
+                self.rule.add_run(pass, &mut runs[first / RUN], keys, front, facet);
             },
         );
     }

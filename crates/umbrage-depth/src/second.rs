@@ -16,9 +16,9 @@ impl Reduction for Second {
 
     #[inline(always)]
     fn add(&self, _pass: u32, cell: &mut [f32; 2], key: f32, _front: bool, facet: &Facet) {
-        insert(cell, key);
+        *cell = two_smallest(*cell, key);
         if facet.sheet {
-            insert(cell, key);
+            *cell = two_smallest(*cell, key);
         }
     }
 
@@ -30,9 +30,7 @@ impl Reduction for Second {
         }
         for _ in 0..=u32::from(facet.sheet) {
             for i in 0..RUN {
-                let later = if keys[i] < second[i] { keys[i] } else { second[i] };
-                second[i] = if keys[i] < first[i] { first[i] } else { later };
-                first[i] = if keys[i] < first[i] { keys[i] } else { first[i] };
+                [first[i], second[i]] = two_smallest([first[i], second[i]], keys[i]);
             }
         }
         for i in 0..RUN {
@@ -52,11 +50,9 @@ impl DepthRule for Second {
     }
 }
 
+/// The two smallest keys, in order, once another has come; NaN changes nothing. Of minima and maxima, so that no branch is made of it.
 #[inline(always)]
-fn insert(cell: &mut [f32; 2], key: f32) {
-    if key < cell[0] {
-        *cell = [key, cell[0]];
-    } else if key < cell[1] {
-        cell[1] = key;
-    }
+fn two_smallest([first, second]: [f32; 2], key: f32) -> [f32; 2] {
+    let other = if key.is_nan() { f32::INFINITY } else { key.max(first) };
+    [key.min(first), other.min(second)]
 }

@@ -282,3 +282,38 @@ fn cross_rows(edge: &Edge, from: i32, rows: &mut [u32]) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// A corner near a tile: anywhere, or where samples lie on edges and corners.
+    fn corner(half: i32) -> impl Strategy<Value = IVec2> {
+        let axis = move || prop_oneof![-half..half, (-half / 128..half / 128).prop_map(|halves| halves * 128)];
+        (axis(), axis()).prop_map(IVec2::from)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+        #[test]
+        fn x2_narrow_triangles_are_covered_as_any(
+            at in corner(40 * SUBTEXELS),
+            offsets in prop_oneof![
+                [corner(300), corner(300), corner(300)],
+                [corner(16 * SUBTEXELS), corner(16 * SUBTEXELS), corner(16 * SUBTEXELS)],
+                [corner(NARROW / 2), corner(NARROW / 2), corner(NARROW / 2)],
+            ],
+            window in (corner(40 * SUBTEXELS), corner(40 * SUBTEXELS)),
+        ) {
+            let origin = IVec2::splat(5 * SIDE);
+            let corners = offsets.map(|offset| (origin + SIDE / 2) * SUBTEXELS + at + offset);
+            let (low, high) = (window.0.min(window.1), window.0.max(window.1));
+            let window = TexelRect::new(origin + (low >> 8), origin + (high >> 8) + SIDE);
+            if let Some(samples) = Samples::of(UVec2::splat(5), window, Sampling::Centre) {
+                prop_assert_eq!(samples.narrow(corners), samples.of_any(&corners));
+            }
+        }
+    }
+}

@@ -31,7 +31,7 @@ pub fn each_fragment(
 }
 
 /// [`each_fragment`] in runs of [`RUN`] texels of a row, which begin at a multiple of [`RUN`]: calls `each` with every run that holds a
-/// covered texel. It is given the index of the run's first texel and the keys of all, NaN for those that are not covered.
+/// covered texel, in no order that matters. It is given the index of the run's first texel and the keys of all, NaN for those that are not covered.
 ///
 /// The keys are the same bits. Compiled for [vector instructions](umbrage_plane::vectorized), a run takes little more time than one fragment.
 #[inline(always)]
@@ -42,18 +42,25 @@ pub fn each_run(
     coverage: &Coverage,
     mut each: impl FnMut(usize, &[f32; RUN]),
 ) {
-    for row in coverage.first..coverage.end {
-        let mut bits = coverage.rows[usize::from(row)];
-        while bits != 0 {
-            let run = bits.trailing_zeros() as usize / RUN;
+    // Copies, which nothing that `each` writes can change: they are not read again for each run.
+    let (sampling, plane) = (view.sampling(), facet.plane);
+    let rows = &coverage.rows[usize::from(coverage.first)..usize::from(coverage.end)];
+    let mut touched = rows.iter().fold(0, |all, row| all | row);
+    while touched != 0 {
+        let run = touched.trailing_zeros() as usize / RUN;
+        touched &= !(0xff << (run * RUN));
+        // Down the rows, so that what depends on the column alone is worked out once.
+        for (row, bits) in (usize::from(coverage.first)..).zip(rows) {
             let covered = bits >> (run * RUN) & 0xff;
-            bits &= !(0xff << (run * RUN));
-            let texel = origin + IVec2::new((run * RUN) as i32, i32::from(row));
-            let mut keys = run_keys(view.sampling(), &facet.plane, texel);
+            if covered == 0 {
+                continue;
+            }
+            let texel = origin + IVec2::new((run * RUN) as i32, row as i32);
+            let mut keys = run_keys(sampling, &plane, texel);
             for (lane, key) in keys.iter_mut().enumerate() {
                 *key = if covered & (1 << lane) == 0 { f32::NAN } else { *key };
             }
-            each(usize::from(row) * BIN as usize + run * RUN, &keys);
+            each(row * BIN as usize + run * RUN, &keys);
         }
     }
 }
