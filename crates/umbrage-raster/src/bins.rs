@@ -90,9 +90,10 @@ impl Bins {
             return;
         }
         let Some(samples) = Samples::of(tile, self.window, self.sampling) else { return };
-        for &index in list {
-            let (piece, corners) = self.piece(index);
-            if let Some(coverage) = samples.inside(corners) {
+        let mut coverage = Coverage::NOTHING;
+        for &number in list {
+            let (piece, corners) = self.piece(number);
+            if samples.inside(corners, &mut coverage) {
                 sink(&piece.facet(), &coverage);
             }
         }

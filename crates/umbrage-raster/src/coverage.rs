@@ -30,6 +30,9 @@ impl Coverage {
         self.rows[usize::from(self.first)..usize::from(self.end)].iter().map(|row| row.count_ones()).sum()
     }
 
+    /// None yet.
+    pub(crate) const NOTHING: Self = Self { rows: [0; 32], first: 0, end: 0 };
+
     /// From rows of which only those of `within` may have a bit set; `None` when none has.
     fn new(rows: [u32; 32], within: Range<i32>) -> Option<Self> {
         let first = within.clone().find(|&row| rows[row as usize] != 0)?;
@@ -120,19 +123,22 @@ impl Samples {
         Some(Self { origin, columns: below(high.x) & !below(low.x), rows: low.y..high.y, sampling, offsets })
     }
 
-    /// The samples inside a polygon; `None` when there are none.
+    /// Makes a coverage that of a polygon; whether any sample is inside.
     #[inline(always)]
-    pub fn inside(&self, corners: &[IVec2]) -> Option<Coverage> {
+    pub fn inside(&self, corners: &[IVec2], coverage: &mut Coverage) -> bool {
         if let (Sampling::Centre, &[a, b, c]) = (self.sampling, corners) {
             let (low, high) = bounds(corners);
             if (high - low).max_element() <= NARROW {
-                return self.narrow([a, b, c]);
+                return self.narrow([a, b, c], coverage);
             }
         }
-        self.of_any(corners)
+        self.of_any(corners).is_some_and(|found| {
+            *coverage = found;
+            true
+        })
     }
 
-    /// [`Samples::inside`] of any polygon.
+    /// The samples inside any polygon; `None` when there are none.
     #[inline(never)]
     fn of_any(&self, corners: &[IVec2]) -> Option<Coverage> {
         match self.sampling {
@@ -143,7 +149,7 @@ impl Samples {
 
     /// [`Samples::centres`] of a triangle that is at most [`NARROW`] wide and high, in numbers of half the width.
     #[inline(always)]
-    fn narrow(&self, [a, b, c]: [IVec2; 3]) -> Option<Coverage> {
+    fn narrow(&self, [a, b, c]: [IVec2; 3], coverage: &mut Coverage) -> bool {
         // From above downward, relative to the first sample: samples then lie at multiples of 256.
         let origin = self.origin * SUBTEXELS + SUBTEXELS / 2;
         let sorted = |a: IVec2, b: IVec2| if a.y <= b.y { (a, b) } else { (b, a) };
@@ -154,23 +160,24 @@ impl Samples {
         let row = |corner: IVec2| ((corner.y + SUBTEXELS - 1) >> 8).clamp(self.rows.start, self.rows.end);
         let (from, middle, to) = (row(a), row(b), row(c));
         if from == to || a.x.max(b.x).max(c.x) <= 0 || a.x.min(b.x).min(c.x) > (SIDE - 1) * SUBTEXELS {
-            return None;
+            return false;
         }
-        let mut rows = [0; SIDE as usize];
+        coverage.rows = [0; SIDE as usize];
         let (mut first, mut end) = (SIDE, 0);
         let mut longest = Crossing::of(a, c, from);
         for (mut other, within) in [(Crossing::of(a, b, from), from..middle), (Crossing::of(b, c, middle), middle..to)]
         {
             for row in within {
                 let covered = (longest.next() ^ other.next()) & self.columns;
-                rows[row as usize & (SIDE as usize - 1)] = covered;
+                coverage.rows[row as usize & (SIDE as usize - 1)] = covered;
                 if covered != 0 {
                     first = first.min(row);
                     end = row + 1;
                 }
             }
         }
-        (end > 0).then_some(Coverage { rows, first: first as u8, end: end as u8 })
+        (coverage.first, coverage.end) = (first as u8, end as u8);
+        end > 0
     }
 
     fn edges<'a>(&self, corners: &'a [IVec2]) -> impl Iterator<Item = Edge> + use<'a> {
@@ -312,7 +319,10 @@ mod tests {
             let (low, high) = (window.0.min(window.1), window.0.max(window.1));
             let window = TexelRect::new(origin + (low >> 8), origin + (high >> 8) + SIDE);
             if let Some(samples) = Samples::of(UVec2::splat(5), window, Sampling::Centre) {
-                prop_assert_eq!(samples.narrow(corners), samples.of_any(&corners));
+                // Whatever it held before is gone.
+                let mut coverage = Coverage { rows: [7; 32], first: 3, end: 9 };
+                let found = samples.narrow(corners, &mut coverage).then_some(coverage);
+                prop_assert_eq!(found, samples.of_any(&corners));
             }
         }
     }

@@ -57,23 +57,18 @@ struct Seen {
 
 impl Making<'_> {
     /// [`Making::add`] of each triangle.
-    #[expect(
-        clippy::if_same_then_else,
-        reason = "compiled once for each projection, neither of which then branches on it"
-    )]
+    #[expect(clippy::match_same_arms, reason = "compiled once for each projection, on which no loop then branches")]
     #[inline(always)]
     pub fn add_all(&mut self, triangles: &[Triangle]) {
         let view = *self.setup.view;
-        if view.kind() == Kind::Screen {
-            for triangle in triangles {
-                self.add(triangle);
+        match (view.is_perspective(), view.kind()) {
+            (true, Kind::Axial | Kind::Radial) => self.add_eights(&view, triangles),
+            (false, Kind::Axial | Kind::Radial) => self.add_eights(&view, triangles),
+            (_, Kind::Screen) => {
+                for triangle in triangles {
+                    self.add(triangle);
+                }
             }
-            return;
-        }
-        if view.is_perspective() {
-            self.add_eights(&view, triangles);
-        } else {
-            self.add_eights(&view, triangles);
         }
     }
 
