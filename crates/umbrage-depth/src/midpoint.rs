@@ -105,13 +105,12 @@ impl Reduction for Midpoint {
     }
 }
 
-/// The two smallest different keys, in order, once another has come; NaN changes nothing. Of minima and maxima, so that no branch is made
-/// of it.
+/// The two smallest different keys, in order, once another has come; NaN changes nothing.
 #[inline(always)]
 fn two_smallest(first: f32, second: f32, key: f32) -> (f32, f32) {
-    let (nearer, farther) = (key.min(first), key.max(first));
-    let other = if farther > nearer { farther } else { f32::INFINITY };
-    (nearer, other.min(second))
+    let nearer = if key < second { key } else { second };
+    let later = if key > first { nearer } else { second };
+    if key < first { (key, first) } else { (first, later) }
 }
 
 impl DepthRule for Midpoint {
