@@ -147,7 +147,7 @@ impl Samples {
         }
     }
 
-    /// [`Samples::centres`] of a triangle that is at most [`NARROW`] wide and high, in numbers of half the width.
+    /// [`Samples::centres`] of a triangle that is at most [`NARROW`] wide and high, in 32-bit integers.
     #[inline(always)]
     fn narrow(&self, [a, b, c]: [IVec2; 3], coverage: &mut Coverage) -> bool {
         // From above downward, relative to the first sample: samples then lie at multiples of 256.
