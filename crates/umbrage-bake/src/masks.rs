@@ -87,21 +87,25 @@ impl<'a> Masks<'a> {
     /// [`Bins::tile`] of bins of the same view, without the samples where masks say that nothing is there.
     #[inline(always)]
     pub fn tile(&self, bins: &Bins, tile: UVec2, mut sink: impl FnMut(&Facet, &Coverage)) {
-        bins.tile(tile, |facet, coverage| {
-            let cut;
-            let coverage = match self.of(facet) {
-                None => coverage,
-                Some(masked) => {
-                    cut = self.cut(masked, facet, (tile * BIN).as_ivec2(), coverage);
-                    // Who has no sample touches no tile.
-                    if cut.rows == [0; 32] {
-                        return;
+        bins.tile(
+            tile,
+            #[inline(always)]
+            |facet, coverage| {
+                let cut;
+                let coverage = match self.of(facet) {
+                    None => coverage,
+                    Some(masked) => {
+                        cut = self.cut(masked, facet, (tile * BIN).as_ivec2(), coverage);
+                        // Who has no sample touches no tile.
+                        if cut.rows == [0; 32] {
+                            return;
+                        }
+                        &cut
                     }
-                    &cut
-                }
-            };
-            sink(facet, coverage);
-        });
+                };
+                sink(facet, coverage);
+            },
+        );
     }
 
     /// A coverage, as far as a mask leaves it.

@@ -26,7 +26,7 @@ pub fn bake_by_normals<'a, R: DepthRule>(
     let mut masks = Masks::new(view);
     let triangles = casters.iter().map(|caster| masks.note(*caster));
     let bins = Bins::new(view, TexelRect::of_size(view.size()), Cull::None, triangles);
-    Pass { view, fine: view, rule, masks: &masks, front }.run(&bins, Cull::None)
+    Pass { view, fine: view, rule, masks: &masks, front: Some(front) }.run(&bins, Cull::None)
 }
 
 /// A vector whose product with [`ray`] has the sign of N·L at each place of a triangle; `None` for one that is edge-on or

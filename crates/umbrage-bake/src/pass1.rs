@@ -3,9 +3,9 @@ use crate::masks::Masks;
 use glam::{DVec2, IVec2, UVec2};
 use rayon::prelude::*;
 use std::sync::Arc;
-use umbrage_depth::{DepthRule, Reduction, Stored, Tile, Tiled};
-use umbrage_plane::{Facet, Facing, TexelRect, View, ViewError};
-use umbrage_raster::{BIN, Bins, Cull, Stats, each_fragment};
+use umbrage_depth::{DepthRule, RUN, Reduction, Stored, Tile, Tiled};
+use umbrage_plane::{Facet, Facing, TexelRect, View, ViewError, vectorized};
+use umbrage_raster::{BIN, Bins, Coverage, Cull, Stats, each_fragment, each_run};
 
 /// A depth map, and what became of the triangles.
 #[derive(Clone, Debug)]
@@ -35,7 +35,7 @@ pub fn bake<'a, R: DepthRule>(
     let mut masks = Masks::new(view);
     let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
     let bins = Bins::new(view, TexelRect::of_size(view.size()), cull, triangles);
-    Pass { view, fine: view, rule, masks: &masks, front: by_winding }.run(&bins, cull)
+    Pass { view, fine: view, rule, masks: &masks, front: BY_WINDING }.run(&bins, cull)
 }
 
 /// [`bake`] with `axis` × `axis` samples a texel, all of whose fragments count for the texel: what *hits* it, not what lies at one place
@@ -57,13 +57,11 @@ pub fn bake_multi<'a, R: DepthRule>(
     let mut masks = Masks::new(&fine);
     let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
     let bins = Bins::new(&fine, TexelRect::of_size(fine.size()), cull, triangles);
-    Ok(Pass { view, fine: &fine, rule, masks: &masks, front: by_winding }.run(&bins, cull))
+    Ok(Pass { view, fine: &fine, rule, masks: &masks, front: BY_WINDING }.run(&bins, cull))
 }
 
-/// Whether a facet's outside is seen: the side from which its corners are counter-clockwise.
-fn by_winding(facet: &Facet, _: DVec2) -> bool {
-    facet.facing == Facing::Front
-}
+/// That a facet's own [`Facing`] says which side of it is seen, all over it.
+pub(crate) const BY_WINDING: Option<fn(&Facet, DVec2) -> bool> = None;
 
 /// What Reeves advises for a light's map: from once to twice the picture's resolution along each axis, starting with once
 /// (R87-6). As (least, most).
@@ -80,8 +78,8 @@ pub(crate) struct Pass<'a, R, F> {
     pub rule: &'a R,
     /// Of `fine`.
     pub masks: &'a Masks<'a>,
-    /// Whether a facet's outside is seen at a sample of `fine`.
-    pub front: F,
+    /// Whether a facet's outside is seen at a sample of `fine`, where that differs over the facet.
+    pub front: Option<F>,
 }
 
 /// Cells of a tile.
@@ -95,8 +93,10 @@ impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
             .into_par_iter()
             .map(|index| {
                 let tile = UVec2::new(index % grid.x, index / grid.x);
-                let (cells, fragments) = self.cells(bins, tile);
-                (cells.and_then(|cells| self.resolve(&cells, tile)), fragments)
+                vectorized!(_ => {
+                    let (cells, fragments) = self.draw(bins, tile);
+                    (cells.and_then(|cells| self.resolve(&cells, tile)), fragments)
+                })
             })
             .unzip();
         let stored = match (self.rule.stored(), cull) {
@@ -107,16 +107,27 @@ impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
         Baked { map, stats: bins.stats(), fragments: fragments.iter().sum() }
     }
 
+    #[inline(always)]
     fn resolve(&self, cells: &[R::Cell; CELLS], tile: UVec2) -> Option<Tile> {
-        let decode = self.view.decode();
+        let (sampling, origin) = (self.view.sampling(), (tile * BIN).as_ivec2());
         let nearest = self.view.key(self.view.near()) as f32;
         let mut depths = Box::new([f32::INFINITY; CELLS]);
-        for (index, depth) in depths.iter_mut().enumerate() {
-            let texel = (tile * BIN).as_ivec2() + IVec2::new(index as i32 % BIN as i32, index as i32 / BIN as i32);
-            let at = self.view.sampling().position(texel);
-            // Clamped only now: a rule must tell surfaces apart that are all nearer than the near plane.
-            *depth = self.rule.resolve(cells[index], &decode, at).max(decode.depth(nearest, at));
-        }
+        self.view.decoding(
+            #[inline(always)]
+            |decode| {
+                let rows = cells.chunks_exact(BIN as usize).zip(depths.chunks_exact_mut(BIN as usize));
+                for (y, (cells, depths)) in (0..).zip(rows) {
+                    // Nothing but this loop knows the row, so that what the rule holds need not be read again for each texel.
+                    let mut row = [f32::INFINITY; BIN as usize];
+                    for (x, (cell, depth)) in (0..).zip(cells.iter().zip(&mut row)) {
+                        let at = sampling.position(origin + IVec2::new(x, y));
+                        // Clamped only now: a rule must tell surfaces apart that are all nearer than the near plane.
+                        *depth = self.rule.resolve(*cell, decode, at).max(decode.depth(nearest, at));
+                    }
+                    depths.copy_from_slice(&row);
+                }
+            },
+        );
         Tile::new(depths, (self.view.size() - tile * BIN).min(UVec2::splat(BIN)))
     }
 }
@@ -124,30 +135,76 @@ impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
 impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     /// A tile's cells after all fragments, `None` where there were none, and the number of fragments.
     pub fn cells(&self, bins: &Bins, tile: UVec2) -> (Option<Box<[R::Cell; CELLS]>>, u64) {
+        vectorized!(_ => self.draw(bins, tile))
+    }
+
+    #[inline(always)]
+    fn draw(&self, bins: &Bins, tile: UVec2) -> (Option<Box<[R::Cell; CELLS]>>, u64) {
         let axis = self.fine.size().x / self.view.size().x;
-        let first = (tile * BIN).as_ivec2();
         let mut cells: Option<Box<[R::Cell; CELLS]>> = None;
         let mut fragments = 0;
         for pass in 0..R::PASSES {
+            if pass > 0 && cells.as_ref().is_none_or(|cells| self.rule.settled(cells.as_slice())) {
+                break;
+            }
             for part in 0..axis * axis {
                 let part = tile * axis + UVec2::new(part % axis, part / axis);
-                let origin = (part * BIN).as_ivec2();
-                self.masks.tile(bins, part, |facet, coverage| {
-                    let cells = cells.get_or_insert_with(|| Box::new([R::EMPTY; CELLS]));
-                    each_fragment(self.fine, origin, facet, coverage, |cell, at, key| {
-                        let front = (self.front)(facet, at);
-                        let cell = if axis == 1 {
-                            cell
+                self.masks.tile(
+                    bins,
+                    part,
+                    #[inline(always)]
+                    |facet, coverage| {
+                        let cells = cells.get_or_insert_with(|| Box::new([R::EMPTY; CELLS]));
+                        if pass == 0 {
+                            fragments += u64::from(coverage.count());
+                        }
+                        if axis == 1 && self.front.is_none() {
+                            self.add_runs(pass, cells, part, facet, coverage);
                         } else {
-                            let texel = (at / f64::from(axis)).as_ivec2() - first;
-                            (texel.y * BIN as i32 + texel.x) as usize
-                        };
-                        self.rule.add(pass, &mut cells[cell], key, front, facet);
-                        fragments += u64::from(pass == 0);
-                    });
-                });
+                            self.add_each(pass, cells, tile, part, facet, coverage);
+                        }
+                    },
+                );
             }
         }
         (cells, fragments)
+    }
+
+    /// Offers a facet to the cells of a tile, several at a time.
+    #[inline(always)]
+    fn add_runs(&self, pass: u32, cells: &mut [R::Cell; CELLS], tile: UVec2, facet: &Facet, coverage: &Coverage) {
+        let front = facet.facing == Facing::Front;
+        let (runs, _) = cells.as_chunks_mut::<RUN>();
+        each_run(
+            self.fine,
+            (tile * BIN).as_ivec2(),
+            facet,
+            coverage,
+            #[inline(always)]
+            |first, keys| {
+                // Keys of NaN, which are those of the texels that are not covered, change nothing.
+                self.rule.add_run(pass, &mut runs[first / RUN], keys, front, facet);
+            },
+        );
+    }
+
+    /// Offers a facet to the cells of a tile, as one of the `parts` of which it is drawn sees it.
+    fn add_each(
+        &self,
+        pass: u32,
+        cells: &mut [R::Cell; CELLS],
+        tile: UVec2,
+        part: UVec2,
+        facet: &Facet,
+        coverage: &Coverage,
+    ) {
+        let axis = self.fine.size().x / self.view.size().x;
+        let (origin, first) = ((part * BIN).as_ivec2(), (tile * BIN).as_ivec2());
+        each_fragment(self.fine, origin, facet, coverage, |_, at, key| {
+            let front = self.front.as_ref().map_or(facet.facing == Facing::Front, |front| front(facet, at));
+            let texel = (at / f64::from(axis)).as_ivec2() - first;
+            let cell = (texel.y * BIN as i32 + texel.x) as usize;
+            self.rule.add(pass, &mut cells[cell], key, front, facet);
+        });
     }
 }

@@ -1,6 +1,6 @@
 use crate::Caster;
 use crate::masks::Masks;
-use crate::pass1::Pass;
+use crate::pass1::{BY_WINDING, Pass};
 use glam::UVec2;
 use rayon::prelude::*;
 use umbrage_depth::{Reduction, TagMap};
@@ -14,6 +14,7 @@ impl Reduction for Nearest {
     type Cell = (f32, u32);
     const EMPTY: (f32, u32) = (f32::INFINITY, u32::MAX);
 
+    #[inline(always)]
     fn add(&self, _pass: u32, cell: &mut (f32, u32), key: f32, _front: bool, facet: &Facet) {
         if key < cell.0 || (key == cell.0 && facet.object < cell.1) {
             *cell = (key, facet.object);
@@ -27,7 +28,7 @@ pub fn bake_tags<'a>(view: &View, casters: impl IntoIterator<Item: Into<Caster<'
     let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
     let bins = Bins::new(view, TexelRect::of_size(view.size()), Cull::None, triangles);
     let grid = bins.tiles();
-    let pass = Pass { view, fine: view, rule: &Nearest, masks: &masks, front: |_: &Facet, _| true };
+    let pass = Pass { view, fine: view, rule: &Nearest, masks: &masks, front: BY_WINDING };
     let tiles: Vec<_> = (0..grid.x * grid.y)
         .into_par_iter()
         .map(|index| pass.cells(&bins, UVec2::new(index % grid.x, index / grid.x)).0)

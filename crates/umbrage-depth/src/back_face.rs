@@ -17,8 +17,9 @@ impl Reduction for BackFace {
 
     #[inline(always)]
     fn add(&self, _pass: u32, cell: &mut f32, key: f32, front: bool, facet: &Facet) {
-        if key < *cell && (!front || facet.sheet) {
-            *cell = key;
+        if !front || facet.sheet {
+            // The smaller without a branch, so that several cells become one vector; of NaN and a number, the number.
+            *cell = key.min(*cell);
         }
     }
 }

@@ -13,9 +13,8 @@ impl Reduction for First {
 
     #[inline(always)]
     fn add(&self, _pass: u32, cell: &mut f32, key: f32, _front: bool, _facet: &Facet) {
-        if key < *cell {
-            *cell = key;
-        }
+        // The smaller without a branch, so that several cells become one vector; of NaN and a number, the number.
+        *cell = key.min(*cell);
     }
 }
 

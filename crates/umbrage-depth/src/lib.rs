@@ -82,7 +82,7 @@ pub use map::DepthMap;
 pub use midpoint::{Midpoint, MidpointCell, SameSurface};
 pub use quantise::{quantise, quantum};
 pub use raw::{MapError, Raw};
-pub use rule::{DepthRule, Reduction};
+pub use rule::{DepthRule, RUN, Reduction};
 pub use second::Second;
 pub use stored::Stored;
 pub use tags::TagMap;

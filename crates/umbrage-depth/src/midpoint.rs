@@ -1,4 +1,4 @@
-use crate::{DepthRule, Reduction, Stored};
+use crate::{DepthRule, RUN, Reduction, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -7,7 +7,8 @@ use umbrage_plane::{Decode, Facet};
 ///
 /// The depth is averaged in world distance along the axis whatever the map's kind (W92-1b). Surfaces that coincide count as one,
 /// or shared edges and sheets would store their own depth and shadow themselves (W92-4, T-2). Whether two coincide is
-/// asked of the nearest alone, in a second pass; merging them as they arrive would depend on their order (V54).
+/// asked of the nearest alone, in a second pass; merging them as they arrive would depend on their order (V54). Where the two smallest
+/// keys already are apart, no second pass is needed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Midpoint {
@@ -45,9 +46,10 @@ impl Default for Midpoint {
 pub struct MidpointCell {
     /// The smallest key.
     first: f32,
-    /// The smallest key among other surfaces.
+    /// The smallest key among other surfaces. Of [`SameSurface::Depth`] it is the second smallest key of all before a second pass has found
+    /// another: where that coincides with `first`, there is no other surface yet.
     second: f32,
-    /// The smallest object id at `first`, and whether its outside is seen there.
+    /// The smallest object id at `first`, and whether its outside is seen there; [`SameSurface::Depth`] leaves it alone.
     object: (u32, bool),
 }
 
@@ -60,15 +62,55 @@ impl Reduction for Midpoint {
     fn add(&self, pass: u32, cell: &mut MidpointCell, key: f32, front: bool, facet: &Facet) {
         let object = (facet.object, front);
         if pass == 0 {
-            if key < cell.first {
+            if self.same == SameSurface::Depth {
+                (cell.first, cell.second) = two_smallest(cell.first, cell.second, key);
+            } else if key < cell.first {
                 (cell.first, cell.object) = (key, object);
             } else if key == cell.first {
                 cell.object = cell.object.min(object);
             }
-        } else if key < cell.second && !self.is_first(cell, key, object) {
+        } else if key < self.second(cell) && !self.is_first(cell, key, object) {
             cell.second = key;
         }
     }
+
+    #[inline(always)]
+    fn add_run(&self, pass: u32, cells: &mut [MidpointCell; RUN], keys: &[f32; RUN], front: bool, facet: &Facet) {
+        if pass > 0 || self.same != SameSurface::Depth {
+            for (cell, key) in cells.iter_mut().zip(keys) {
+                self.add(pass, cell, *key, front, facet);
+            }
+            return;
+        }
+        let (mut first, mut second) = ([0.0; RUN], [0.0; RUN]);
+        for i in 0..RUN {
+            (first[i], second[i]) = (cells[i].first, cells[i].second);
+        }
+        for i in 0..RUN {
+            (first[i], second[i]) = two_smallest(first[i], second[i], keys[i]);
+        }
+        for i in 0..RUN {
+            (cells[i].first, cells[i].second) = (first[i], second[i]);
+        }
+    }
+
+    #[inline(always)]
+    fn settled(&self, cells: &[MidpointCell]) -> bool {
+        // Of a negative or missing `merge`, not even equal keys coincide.
+        let mut settled = self.same == SameSurface::Depth && self.merge >= 0.0;
+        for cell in cells {
+            settled &= (cell.second == f32::INFINITY) | !self.coincide(cell.first, cell.second);
+        }
+        settled
+    }
+}
+
+/// The two smallest different keys, in order, once another has come; NaN changes nothing.
+#[inline(always)]
+fn two_smallest(first: f32, second: f32, key: f32) -> (f32, f32) {
+    let nearer = if key < second { key } else { second };
+    let later = if key > first { nearer } else { second };
+    if key < first { (key, first) } else { (first, later) }
 }
 
 impl DepthRule for Midpoint {
@@ -78,26 +120,37 @@ impl DepthRule for Midpoint {
 
     #[inline(always)]
     fn resolve(&self, cell: MidpointCell, decode: &Decode, at: DVec2) -> f32 {
-        if cell.second == f32::INFINITY {
-            return f32::INFINITY;
-        }
+        let second = self.second(&cell);
         let ratio = f64::from(self.ratio);
-        decode.depth_of_zeta(decode.zeta(cell.first) * (1.0 - ratio) + decode.zeta(cell.second) * ratio, at)
+        let zeta = decode.zeta(cell.first) * (1.0 - ratio) + decode.zeta(second) * ratio;
+        if second == f32::INFINITY { f32::INFINITY } else { decode.depth_of_zeta(zeta, at) }
     }
 }
 
 impl Midpoint {
+    /// The smallest key that is known of another surface; +∞ where none is.
+    #[inline(always)]
+    fn second(&self, cell: &MidpointCell) -> f32 {
+        let stale = self.same == SameSurface::Depth && self.coincide(cell.first, cell.second);
+        if stale { f32::INFINITY } else { cell.second }
+    }
+
     /// Whether a fragment belongs to the nearest surface.
+    #[inline(always)]
+    fn is_first(&self, cell: &MidpointCell, key: f32, object: (u32, bool)) -> bool {
+        match self.same {
+            SameSurface::Depth => self.coincide(cell.first, key),
+            SameSurface::Object => self.coincide(cell.first, key) && object.0 == cell.object.0,
+            SameSurface::Surface => object == cell.object,
+        }
+    }
+
+    /// Whether a key is at the depth of the smallest.
     ///
     /// Keys are ζ or −1/ζ; of both, a difference relative to the larger key is one of ζ relative to the larger ζ.
     #[inline(always)]
-    fn is_first(&self, cell: &MidpointCell, key: f32, object: (u32, bool)) -> bool {
-        let (first, key) = (f64::from(cell.first), f64::from(key));
-        let coincide = key - first <= f64::from(self.merge) * first.abs().max(key.abs());
-        match self.same {
-            SameSurface::Depth => coincide,
-            SameSurface::Object => coincide && object.0 == cell.object.0,
-            SameSurface::Surface => object == cell.object,
-        }
+    fn coincide(&self, first: f32, key: f32) -> bool {
+        let (first, key) = (f64::from(first), f64::from(key));
+        key - first <= f64::from(self.merge) * first.abs().max(key.abs())
     }
 }

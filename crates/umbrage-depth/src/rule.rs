@@ -17,7 +17,26 @@ pub trait Reduction: Sync {
     /// Offers one fragment in pass `pass`, counted from 0: its key at the texel's sample position and whether its outside is seen there. A key
     /// of NaN changes nothing.
     fn add(&self, pass: u32, cell: &mut Self::Cell, key: f32, front: bool, facet: &Facet);
+
+    /// [`Reduction::add`] of one facet's fragments to [`RUN`] cells, one each; another way to the same cells where there is one that becomes
+    /// vector instructions more easily.
+    #[inline(always)]
+    fn add_run(&self, pass: u32, cells: &mut [Self::Cell; RUN], keys: &[f32; RUN], front: bool, facet: &Facet) {
+        for (cell, key) in cells.iter_mut().zip(keys) {
+            self.add(pass, cell, *key, front, facet);
+        }
+    }
+
+    /// Whether the passes after the first, all of whose fragments these cells have met, would change no depth made of them: then the passes
+    /// may be left out. False unless a reduction knows better.
+    #[inline(always)]
+    fn settled(&self, _cells: &[Self::Cell]) -> bool {
+        false
+    }
 }
+
+/// Cells that [`Reduction::add_run`] takes at a time.
+pub const RUN: usize = 8;
 
 /// Which of the surfaces behind a texel is stored: a [`Reduction`] whose cell becomes a depth.
 pub trait DepthRule: Reduction {

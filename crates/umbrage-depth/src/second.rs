@@ -1,4 +1,4 @@
-use crate::{DepthRule, Reduction, Stored};
+use crate::{DepthRule, RUN, Reduction, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -16,9 +16,25 @@ impl Reduction for Second {
 
     #[inline(always)]
     fn add(&self, _pass: u32, cell: &mut [f32; 2], key: f32, _front: bool, facet: &Facet) {
-        insert(cell, key);
+        *cell = two_smallest(*cell, key);
         if facet.sheet {
-            insert(cell, key);
+            *cell = two_smallest(*cell, key);
+        }
+    }
+
+    #[inline(always)]
+    fn add_run(&self, _pass: u32, cells: &mut [[f32; 2]; RUN], keys: &[f32; RUN], _front: bool, facet: &Facet) {
+        let (mut first, mut second) = ([0.0; RUN], [0.0; RUN]);
+        for i in 0..RUN {
+            [first[i], second[i]] = cells[i];
+        }
+        for _ in 0..=u32::from(facet.sheet) {
+            for i in 0..RUN {
+                [first[i], second[i]] = two_smallest([first[i], second[i]], keys[i]);
+            }
+        }
+        for i in 0..RUN {
+            cells[i] = [first[i], second[i]];
         }
     }
 }
@@ -34,11 +50,9 @@ impl DepthRule for Second {
     }
 }
 
+/// The two smallest keys, in order, once another has come; NaN changes nothing. Of minima and maxima, so that no branch is made of it.
 #[inline(always)]
-fn insert(cell: &mut [f32; 2], key: f32) {
-    if key < cell[0] {
-        *cell = [key, cell[0]];
-    } else if key < cell[1] {
-        cell[1] = key;
-    }
+fn two_smallest([first, second]: [f32; 2], key: f32) -> [f32; 2] {
+    let other = if key.is_nan() { f32::INFINITY } else { key.max(first) };
+    [key.min(first), other.min(second)]
 }

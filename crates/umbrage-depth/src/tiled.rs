@@ -12,6 +12,46 @@ const MOST_ASKED: u32 = 64;
 /// What the first range is united with; never leaves this module.
 const NONE_YET: DepthRange = DepthRange { min: f32::INFINITY, max: f32::NEG_INFINITY };
 
+/// Columns whose ranges are kept apart until the end, so that a row is worked on in vectors.
+const COLUMNS: usize = 8;
+
+/// The smallest and largest depth of every eighth column.
+struct Extremes {
+    low: [f32; COLUMNS],
+    high: [f32; COLUMNS],
+}
+
+impl Extremes {
+    const NONE_YET: Self = Self { low: [NONE_YET.min; COLUMNS], high: [NONE_YET.max; COLUMNS] };
+
+    /// Makes the depths of a row those that a map [keeps](no_surface::kept), and counts them.
+    #[inline(always)]
+    fn keep(&mut self, row: &mut [f32]) {
+        let (whole, rest) = row.as_chunks_mut::<COLUMNS>();
+        for depths in whole {
+            for (column, depth) in depths.iter_mut().enumerate() {
+                self.keep_one(column, depth);
+            }
+        }
+        for (column, depth) in rest.iter_mut().enumerate() {
+            self.keep_one(column, depth);
+        }
+    }
+
+    #[inline(always)]
+    fn keep_one(&mut self, column: usize, depth: &mut f32) {
+        *depth = no_surface::kept(*depth);
+        self.low[column] = if *depth < self.low[column] { *depth } else { self.low[column] };
+        self.high[column] = if *depth > self.high[column] { *depth } else { self.high[column] };
+    }
+
+    #[inline(always)]
+    fn range(&self) -> DepthRange {
+        let columns = self.low.iter().zip(&self.high).map(|(&min, &max)| DepthRange { min, max });
+        columns.fold(NONE_YET, DepthRange::union)
+    }
+}
+
 /// A square of a map that holds at least one surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tile {
@@ -24,17 +64,16 @@ impl Tile {
     /// (less than [`TILE`] only at its right and lower edge; more counts as [`TILE`]). `None` when no surface is among them.
     ///
     /// Values of 1e30 or more, NaN and −∞ become +∞, like all texels beyond `valid`, which never count.
+    #[inline(always)]
     pub fn new(mut depths: Box<[f32; AREA]>, valid: UVec2) -> Option<Self> {
         let valid = valid.min(UVec2::splat(TILE)).as_usizevec2();
-        let mut range = NONE_YET;
+        let mut extremes = Extremes::NONE_YET;
         for (row, line) in depths.chunks_exact_mut(TILE as usize).enumerate() {
             let (inside, beyond) = line.split_at_mut(if row < valid.y { valid.x } else { 0 });
-            for depth in inside {
-                *depth = no_surface::kept(*depth);
-                range = range.union(DepthRange { min: *depth, max: *depth });
-            }
+            extremes.keep(inside);
             beyond.fill(f32::INFINITY);
         }
+        let range = extremes.range();
         (range.min < f32::INFINITY).then_some(Self { depths, range })
     }
 

@@ -120,6 +120,13 @@ impl View {
 
     /// The plane through `eye_point` with `eye_normal` (need not be unit) as a key over texels; `None` when it is edge-on to the light, so that no key exists (spec D-1, D-3).
     pub fn affine(&self, eye_point: DVec3, eye_normal: DVec3) -> Option<Affine> {
+        let plane = self.plane(eye_point, eye_normal);
+        (plane.c.is_finite() && plane.dx.is_finite() && plane.dy.is_finite()).then_some(plane)
+    }
+
+    /// [`View::affine`] of any plane: of one that is edge-on to the light, it has a component that is not finite.
+    #[inline(always)]
+    pub fn plane(&self, eye_point: DVec3, eye_normal: DVec3) -> Affine {
         let size = self.size.as_dvec2();
         let through = eye_normal.dot(eye_point);
         let plane = match self.projection {
@@ -143,8 +150,7 @@ impl View {
                 }
             }
         };
-        let plane = if self.kind == Kind::Screen { self.screen_plane(plane) } else { plane };
-        (plane.c.is_finite() && plane.dx.is_finite() && plane.dy.is_finite()).then_some(plane)
+        if self.kind == Kind::Screen { self.screen_plane(plane) } else { plane }
     }
 
     /// The plane over this view's texels of a plane over another's that stands at the same place, both in perspective and of a kind whose keys
@@ -188,6 +194,18 @@ impl View {
             far: self.far,
             tangent0,
             tangent_step,
+        }
+    }
+
+    /// Calls `work` with [`View::decode`]. It is compiled apart for each of the two kinds of axial depth: loops over texels in it do not
+    /// branch on the kind there, and become vector instructions.
+    #[inline(always)]
+    pub fn decoding<T>(&self, work: impl FnOnce(&Decode) -> T) -> T {
+        let decode = self.decode();
+        match (decode.kind, decode.perspective) {
+            (Kind::Axial, true) => work(&Decode { kind: Kind::Axial, perspective: true, ..decode }),
+            (Kind::Axial, false) => work(&Decode { kind: Kind::Axial, perspective: false, ..decode }),
+            _ => work(&decode),
         }
     }
 

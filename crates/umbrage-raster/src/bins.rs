@@ -1,7 +1,8 @@
 //! Triangles sorted into tiles.
 
+use crate::blocks::{block_of, blocks, number, place};
 use crate::coverage::{Coverage, Samples};
-use crate::setup::{Piece, Reach, SUBTEXELS, Setup};
+use crate::setup::{Block, Piece, Reach, SEVERAL, SUBTEXELS, Setup, bounds};
 use crate::{BIN, Cull, Stats, Triangle};
 use glam::{IVec2, UVec2};
 use umbrage_plane::{Facet, Sampling, TexelRect, View};
@@ -17,12 +18,10 @@ pub struct Bins {
     reach: Reach,
     window: TexelRect,
     tiles: UVec2,
-    pieces: Vec<Piece>,
-    /// Corners of all pieces, in 1/256 texel.
-    corners: Vec<IVec2>,
+    blocks: Vec<Block>,
     /// Where each tile's list begins in `lists`; one entry more than tiles.
     starts: Vec<usize>,
-    /// Indices into `pieces`, ascending within a tile.
+    /// Numbers of pieces, ascending within a tile.
     lists: Vec<u32>,
     stats: Stats,
 }
@@ -33,6 +32,9 @@ impl Bins {
     /// Only texels inside `window` (in texels; what of it is outside the view's rectangle is ignored) are ever covered. An empty window gives
     /// bins without a facet. Perspective triangles are cut at 1/1024 of the near distance, not at the near plane: what is between
     /// is kept with its true key, and counted in [`Stats::before_near`] (C-10). Orthographic ones are not cut in depth at all.
+    ///
+    /// `triangles` is run through on the calling thread; the threads of its rayon pool share the work on what it gives. The bins do not
+    /// depend on their number.
     pub fn new(view: &View, window: TexelRect, cull: Cull, triangles: impl IntoIterator<Item = Triangle>) -> Self {
         Self::within_reach(Reach::Samples(view.sampling()), view, window, cull, triangles)
     }
@@ -55,19 +57,18 @@ impl Bins {
         triangles: impl IntoIterator<Item = Triangle>,
     ) -> Self {
         let window = TexelRect::of_size(view.size()).intersect(window);
-        let mut setup = Setup::new(view, window, cull, reach);
-        for triangle in triangles {
-            setup.add(&triangle);
+        let setup = Setup { view, window, cull, reach };
+        let blocks = blocks(&setup, triangles.into_iter());
+        let mut stats = Stats::default();
+        for block in &blocks {
+            stats += block.stats;
         }
-        let Setup { pieces, corners, stats, .. } = setup;
-        let sampling = view.sampling();
         let mut bins = Self {
-            sampling,
+            sampling: view.sampling(),
             reach,
             window,
             tiles: view.size().map(|side| side.div_ceil(BIN)),
-            pieces,
-            corners,
+            blocks,
             starts: Vec::new(),
             lists: Vec::new(),
             stats,
@@ -85,15 +86,17 @@ impl Bins {
     ///
     /// The facet's key is exact on the triangle's plane. Only where the plane is so edge-on that 1/256 texel leads out of the triangle's range of
     /// keys, it is the mean of its corners' keys everywhere. Keys nearer than the near plane are not clamped here.
+    #[inline(always)]
     pub fn tile(&self, tile: UVec2, mut sink: impl FnMut(&Facet, &Coverage)) {
         let list = self.list(tile);
         if list.is_empty() {
             return;
         }
         let Some(samples) = Samples::of(tile, self.window, self.sampling) else { return };
-        for &index in list {
-            let piece = &self.pieces[index as usize];
-            if let Some(coverage) = samples.inside(piece.corners(&self.corners)) {
+        let mut coverage = Coverage::NOTHING;
+        for &number in list {
+            let (piece, corners) = self.piece(number);
+            if samples.inside(corners, &mut coverage) {
                 sink(&piece.facet(), &coverage);
             }
         }
@@ -111,13 +114,21 @@ impl Bins {
 
     /// All facets that were kept, in the order of their triangles; some may cover no texel.
     pub fn facets(&self) -> impl ExactSizeIterator<Item = Facet> + '_ {
-        self.pieces.iter().map(Piece::facet)
+        let (mut block, mut place) = (0, 0);
+        (0..self.stats.kept() as usize).map(move |_| {
+            while place == self.blocks[block].pieces.len() {
+                (block, place) = (block + 1, 0);
+            }
+            place += 1;
+            self.blocks[block].pieces[place - 1].facet()
+        })
     }
 
     /// The facet of the triangle with that index, 0-based among all given; `None` when it was skipped, culled or out of sight.
     pub fn facet(&self, triangle: u32) -> Option<Facet> {
-        let index = self.pieces.binary_search_by_key(&triangle, Piece::triangle).ok()?;
-        Some(self.pieces[index].facet())
+        let pieces = &self.blocks.get(block_of(triangle))?.pieces;
+        let index = pieces.binary_search_by_key(&triangle, Piece::triangle).ok()?;
+        Some(pieces[index].facet())
     }
 
     /// Counts.
@@ -129,13 +140,16 @@ impl Bins {
         self.window
     }
 
-    /// A piece by its index, and its corners.
-    pub(crate) fn piece(&self, index: u32) -> (&Piece, &[IVec2]) {
-        let piece = &self.pieces[index as usize];
-        (piece, piece.corners(&self.corners))
+    /// A piece by its number, and its corners.
+    #[inline(always)]
+    pub(crate) fn piece(&self, number: u32) -> (&Piece, &[IVec2]) {
+        let (block, place) = place(number);
+        let block = &self.blocks[block];
+        let piece = &block.pieces[place];
+        (piece, block.corners(piece))
     }
 
-    /// Indices of the pieces that may reach a tile, ascending; none outside [`Bins::tiles`].
+    /// Numbers of the pieces that may reach a tile, ascending; none outside [`Bins::tiles`].
     pub(crate) fn list(&self, tile: UVec2) -> &[u32] {
         if tile.cmpge(self.tiles).any() {
             return &[];
@@ -148,28 +162,41 @@ impl Bins {
     fn sort(&mut self) {
         let tiles = self.tiles.x as usize * self.tiles.y as usize;
         let mut starts = vec![0_usize; tiles + 1];
-        for piece in &self.pieces {
-            self.each_tile(piece, |tile| starts[tile + 1] += 1);
-        }
+        self.each_home(|_, tile| starts[tile + 1] += 1);
         for tile in 0..tiles {
             starts[tile + 1] += starts[tile];
         }
         let mut lists = vec![0; starts[tiles]];
         let mut ends = starts.clone();
-        for (index, piece) in self.pieces.iter().enumerate() {
-            self.each_tile(piece, |tile| {
-                lists[ends[tile]] = index as u32;
-                ends[tile] += 1;
-            });
+        self.each_home(|number, tile| {
+            lists[ends[tile]] = number;
+            ends[tile] += 1;
+        });
+        for block in &mut self.blocks {
+            block.homes = Vec::new();
         }
         self.starts = starts;
         self.lists = lists;
     }
 
-    /// Calls `each` with the index of every tile that the piece may cover.
-    fn each_tile(&self, piece: &Piece, mut each: impl FnMut(usize)) {
-        let corners = piece.corners(&self.corners);
-        let texels = self.reach.texels(corners).intersect(self.window);
+    /// Calls `each` with the number of every piece, in their order, and the index of every tile that it may cover.
+    #[inline(always)]
+    fn each_home(&self, mut each: impl FnMut(u32, usize)) {
+        for (index, block) in self.blocks.iter().enumerate() {
+            for (place, &home) in block.homes.iter().enumerate() {
+                let number = number(index, place);
+                if home == SEVERAL {
+                    self.each_tile(block.corners(&block.pieces[place]), |tile| each(number, tile));
+                } else {
+                    each(number, home as usize);
+                }
+            }
+        }
+    }
+
+    /// Calls `each` with the index of every tile that a polygon may cover.
+    fn each_tile(&self, corners: &[IVec2], mut each: impl FnMut(usize)) {
+        let texels = self.reach.texels(bounds(corners)).intersect(self.window);
         let (first, last) = (texels.min.map(|v| v / SIDE), texels.max.map(|v| (v - 1) / SIDE));
         let narrow = last.x - first.x < 2 || last.y == first.y;
         for row in first.y..=last.y {

@@ -5,7 +5,7 @@
 //! of its two ends alone, so two polygons that share an edge never both claim a sample on it, and never both leave it.
 
 use crate::BIN;
-use crate::setup::{SUBTEXELS, sampled};
+use crate::setup::{Reach, SUBTEXELS, bounds};
 use glam::{IVec2, UVec2};
 use std::ops::Range;
 use umbrage_plane::{Sampling, TexelRect};
@@ -24,6 +24,15 @@ pub struct Coverage {
 }
 
 impl Coverage {
+    /// How many texels are covered.
+    #[inline(always)]
+    pub fn count(&self) -> u32 {
+        self.rows[usize::from(self.first)..usize::from(self.end)].iter().map(|row| row.count_ones()).sum()
+    }
+
+    /// None yet.
+    pub(crate) const NOTHING: Self = Self { rows: [0; 32], first: 0, end: 0 };
+
     /// From rows of which only those of `within` may have a bit set; `None` when none has.
     fn new(rows: [u32; 32], within: Range<i32>) -> Option<Self> {
         let first = within.clone().find(|&row| rows[row as usize] != 0)?;
@@ -49,6 +58,37 @@ impl Edge {
     fn ahead(&self, x: i32, y: i32) -> i64 {
         let (dx, dy) = self.along();
         dx * i64::from(y - self.top.y) - dy * i64::from(x - self.top.x)
+    }
+}
+
+/// Triangles up to this width and height, in 1/256 texel, are covered in 32-bit numbers: of a tile's texels and 64 more, products of
+/// coordinates and of sizes stay below 2²⁹.
+const NARROW: i32 = 64 * SUBTEXELS;
+
+/// Where an edge of a narrow triangle is crossed, from a row on downward.
+struct Crossing {
+    /// [`Edge::ahead`] at the first column of the next row, its change from row to row, and from column to column to the left.
+    ahead: i32,
+    step: i32,
+    width: i32,
+}
+
+impl Crossing {
+    /// Of the edge from `top` to `bottom`, relative to the first sample.
+    #[inline(always)]
+    fn of(top: IVec2, bottom: IVec2, row: i32) -> Self {
+        let along = bottom - top;
+        let ahead = along.x * (row * SUBTEXELS - top.y) + along.y * top.x;
+        Self { ahead, step: along.x * SUBTEXELS, width: along.y * SUBTEXELS }
+    }
+
+    /// The columns from whose samples the edge is crossed in this row. Then the next row's turn comes.
+    #[inline(always)]
+    fn next(&mut self) -> u32 {
+        // ⌈ahead / width⌉ of them.
+        let upward = (self.ahead + self.width - 1).max(0) as u32;
+        self.ahead += self.step;
+        below((upward / self.width as u32) as i32)
     }
 }
 
@@ -83,12 +123,61 @@ impl Samples {
         Some(Self { origin, columns: below(high.x) & !below(low.x), rows: low.y..high.y, sampling, offsets })
     }
 
-    /// The samples inside a polygon; `None` when there are none.
-    pub fn inside(&self, corners: &[IVec2]) -> Option<Coverage> {
+    /// Makes a coverage that of a polygon; whether any sample is inside.
+    #[inline(always)]
+    pub fn inside(&self, corners: &[IVec2], coverage: &mut Coverage) -> bool {
+        if let (Sampling::Centre, &[a, b, c]) = (self.sampling, corners) {
+            let (low, high) = bounds(corners);
+            if (high - low).max_element() <= NARROW {
+                return self.narrow([a, b, c], coverage);
+            }
+        }
+        self.of_any(corners).is_some_and(|found| {
+            *coverage = found;
+            true
+        })
+    }
+
+    /// The samples inside any polygon; `None` when there are none.
+    #[inline(never)]
+    fn of_any(&self, corners: &[IVec2]) -> Option<Coverage> {
         match self.sampling {
             Sampling::Centre => self.centres(corners),
             Sampling::Jittered { .. } => self.jittered(corners),
         }
+    }
+
+    /// [`Samples::centres`] of a triangle that is at most [`NARROW`] wide and high, in 32-bit integers.
+    #[inline(always)]
+    fn narrow(&self, [a, b, c]: [IVec2; 3], coverage: &mut Coverage) -> bool {
+        // From above downward, relative to the first sample: samples then lie at multiples of 256.
+        let origin = self.origin * SUBTEXELS + SUBTEXELS / 2;
+        let sorted = |a: IVec2, b: IVec2| if a.y <= b.y { (a, b) } else { (b, a) };
+        let (a, b) = sorted(a - origin, b - origin);
+        let (b, c) = sorted(b, c - origin);
+        let (a, b) = sorted(a, b);
+        // Every row is crossed by the longest edge and by one of the others.
+        let row = |corner: IVec2| ((corner.y + SUBTEXELS - 1) >> 8).clamp(self.rows.start, self.rows.end);
+        let (from, middle, to) = (row(a), row(b), row(c));
+        if from == to || a.x.max(b.x).max(c.x) <= 0 || a.x.min(b.x).min(c.x) > (SIDE - 1) * SUBTEXELS {
+            return false;
+        }
+        coverage.rows = [0; SIDE as usize];
+        let (mut first, mut end) = (SIDE, 0);
+        let mut longest = Crossing::of(a, c, from);
+        for (mut other, within) in [(Crossing::of(a, b, from), from..middle), (Crossing::of(b, c, middle), middle..to)]
+        {
+            for row in within {
+                let covered = (longest.next() ^ other.next()) & self.columns;
+                coverage.rows[row as usize & (SIDE as usize - 1)] = covered;
+                if covered != 0 {
+                    first = first.min(row);
+                    end = row + 1;
+                }
+            }
+        }
+        (coverage.first, coverage.end) = (first as u8, end as u8);
+        end > 0
     }
 
     fn edges<'a>(&self, corners: &'a [IVec2]) -> impl Iterator<Item = Edge> + use<'a> {
@@ -121,7 +210,7 @@ impl Samples {
     }
 
     fn jittered(&self, corners: &[IVec2]) -> Option<Coverage> {
-        let touched = sampled(self.sampling, corners);
+        let touched = Reach::Samples(self.sampling).texels(bounds(corners));
         let (low, high) = (touched.min - self.origin, touched.max - self.origin);
         let columns = below(high.x) & !below(low.x) & self.columns;
         let within = low.y.max(self.rows.start)..high.y.min(self.rows.end);
@@ -197,6 +286,44 @@ fn cross_rows(edge: &Edge, from: i32, rows: &mut [u32]) {
         if remainder >= width {
             quotient += 1;
             remainder -= width;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// A corner near a tile: anywhere, or where samples lie on edges and corners.
+    fn corner(half: i32) -> impl Strategy<Value = IVec2> {
+        let axis = move || prop_oneof![-half..half, (-half / 128..half / 128).prop_map(|halves| halves * 128)];
+        (axis(), axis()).prop_map(IVec2::from)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+        #[test]
+        fn x2_narrow_triangles_are_covered_as_any(
+            at in corner(40 * SUBTEXELS),
+            offsets in prop_oneof![
+                [corner(300), corner(300), corner(300)],
+                [corner(16 * SUBTEXELS), corner(16 * SUBTEXELS), corner(16 * SUBTEXELS)],
+                [corner(NARROW / 2), corner(NARROW / 2), corner(NARROW / 2)],
+            ],
+            window in (corner(40 * SUBTEXELS), corner(40 * SUBTEXELS)),
+        ) {
+            let origin = IVec2::splat(5 * SIDE);
+            let corners = offsets.map(|offset| (origin + SIDE / 2) * SUBTEXELS + at + offset);
+            let (low, high) = (window.0.min(window.1), window.0.max(window.1));
+            let window = TexelRect::new(origin + (low >> 8), origin + (high >> 8) + SIDE);
+            if let Some(samples) = Samples::of(UVec2::splat(5), window, Sampling::Centre) {
+                // Whatever it held before is gone.
+                let mut coverage = Coverage { rows: [7; 32], first: 3, end: 9 };
+                let found = samples.narrow(corners, &mut coverage).then_some(coverage);
+                prop_assert_eq!(found, samples.of_any(&corners));
+            }
         }
     }
 }

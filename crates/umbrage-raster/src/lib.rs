@@ -39,8 +39,10 @@
 #![warn(missing_debug_implementations)]
 
 mod bins;
+mod blocks;
 mod clip;
 mod coverage;
+mod eight;
 mod fragments;
 mod gathered;
 mod setup;
@@ -48,7 +50,7 @@ mod spans;
 
 pub use bins::Bins;
 pub use coverage::Coverage;
-pub use fragments::each_fragment;
+pub use fragments::{RUN, each_fragment, each_run};
 pub use gathered::{Gathered, Seen};
 pub use spans::Lines;
 

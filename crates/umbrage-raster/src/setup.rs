@@ -1,18 +1,24 @@
 //! From a triangle of the world to the record that tiles are filled from.
 
 use crate::clip::{Clipper, GUARD_TEXELS, NEAR_LIMIT};
-use crate::{Cull, Stats, Triangle};
-use glam::{DMat4, DVec3, IVec2};
-use umbrage_plane::{Affine, Facet, Facing, Sampling, TexelRect, View};
+use crate::{BIN, Cull, Stats, Triangle};
+use glam::{DVec3, IVec2};
+use umbrage_plane::{Affine, Facet, Facing, Sampling, TexelRect, View, vectorized};
 
 /// One snap step is 1/256 texel.
 pub(crate) const SUBTEXELS: i32 = 256;
 
-/// What is kept of a triangle.
+/// The home of a piece that may reach several tiles.
+pub(crate) const SEVERAL: u32 = u32::MAX;
+
+/// What is kept of a triangle: a line of a processor's cache, as pieces are read one here, one there.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub(crate) struct Piece {
     plane: Affine,
-    /// Index of its first corner among all corners.
+    /// Its corners where it has three.
+    corners: [IVec2; 3],
+    /// Index of its first corner among those of its block, where it has more.
     first: u32,
     triangle: u32,
     object: u32,
@@ -22,6 +28,7 @@ pub(crate) struct Piece {
 }
 
 impl Piece {
+    #[inline(always)]
     pub fn facet(&self) -> Facet {
         Facet {
             plane: self.plane,
@@ -35,10 +42,29 @@ impl Piece {
     pub fn triangle(&self) -> u32 {
         self.triangle
     }
+}
 
-    /// Its snapped corners among all.
-    pub fn corners<'a>(&self, all: &'a [IVec2]) -> &'a [IVec2] {
-        &all[self.first as usize..][..usize::from(self.sides)]
+/// Consecutive triangles that were set up together.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Block {
+    /// In the order of their triangles.
+    pub pieces: Vec<Piece>,
+    /// Corners of those pieces that have more than three, in 1/256 texel.
+    corners: Vec<IVec2>,
+    /// The index of the only tile that each piece may reach, or [`SEVERAL`].
+    pub homes: Vec<u32>,
+    pub stats: Stats,
+}
+
+impl Block {
+    /// The snapped corners of one of its pieces.
+    #[inline(always)]
+    pub fn corners<'a>(&'a self, piece: &'a Piece) -> &'a [IVec2] {
+        if piece.sides == 3 {
+            &piece.corners
+        } else {
+            &self.corners[piece.first as usize..][..usize::from(piece.sides)]
+        }
     }
 }
 
@@ -52,11 +78,14 @@ pub(crate) enum Reach {
 }
 
 impl Reach {
-    /// The texels that a polygon may be of use to, by its bounding box: inclusive at the low side, exclusive at the high.
-    pub fn texels(self, corners: &[IVec2]) -> TexelRect {
+    /// The texels that a polygon may be of use to, by the least and the greatest coordinates of its corners: inclusive at the low side,
+    /// exclusive at the high.
+    #[inline(always)]
+    pub fn texels(self, (low, high): (IVec2, IVec2)) -> TexelRect {
         match self {
-            Self::Samples(sampling) => sampled(sampling, corners),
-            Self::Anywhere => anywhere(corners),
+            // The samples are at 256·i + 128; ⌈(v − 128) / 256⌉ is the first that is not before v.
+            Self::Samples(Sampling::Centre) => TexelRect::new((low + 127) >> 8, (high + 127) >> 8),
+            Self::Samples(Sampling::Jittered { .. }) | Self::Anywhere => TexelRect::new(low >> 8, (high + 255) >> 8),
         }
     }
 }
@@ -70,56 +99,123 @@ enum Skip {
     Missed,
 }
 
-/// Makes pieces.
+/// How a view's triangles are set up.
+#[derive(Clone, Copy)]
 pub(crate) struct Setup<'a> {
-    view: &'a View,
-    world_to_eye: DMat4,
-    window: TexelRect,
-    cull: Cull,
-    reach: Reach,
-    clipper: Clipper,
-    /// In the order of their triangles.
-    pub pieces: Vec<Piece>,
-    /// Corners of all pieces, in 1/256 texel.
-    pub corners: Vec<IVec2>,
-    pub stats: Stats,
+    pub view: &'a View,
+    pub window: TexelRect,
+    pub cull: Cull,
+    pub reach: Reach,
 }
 
-impl<'a> Setup<'a> {
-    pub fn new(view: &'a View, window: TexelRect, cull: Cull, reach: Reach) -> Self {
-        Self {
-            view,
-            world_to_eye: view.world_to_eye(),
-            window,
-            cull,
-            reach,
-            clipper: Clipper::default(),
-            pieces: Vec::new(),
-            corners: Vec::new(),
-            stats: Stats::default(),
+impl Setup<'_> {
+    /// Sets up consecutive triangles, the index of the first of which is `first`.
+    pub fn block(&self, first: u32, triangles: &[Triangle]) -> Block {
+        let mut making = Making { setup: self, first, clipper: Clipper::default(), block: Block::default() };
+        making.block.pieces.reserve(triangles.len());
+        making.block.homes.reserve(triangles.len());
+        vectorized!(_ => making.add_all(triangles));
+        let mut block = making.block;
+        if block.pieces.len() < triangles.len() / 2 {
+            block.pieces.shrink_to_fit();
+        }
+        block
+    }
+
+    /// Whether the outside of a polygon is seen, and its home; or why it is not drawn.
+    #[inline(always)]
+    fn place(&self, bounds: (IVec2, IVec2), area: i64, sides: usize, sheet: bool) -> Result<(bool, u32), Skip> {
+        let (low, high) = bounds;
+        let touched = TexelRect::new(low >> 8, (high >> 8) + 1);
+        if self.window.intersect(touched).is_empty() {
+            return Err(Skip::Outside);
+        }
+        // A cut polygon that snapping twisted may have no net area and still cover a sample.
+        if area == 0 && sides == 3 {
+            return Err(Skip::ZeroArea);
+        }
+        // Rows go down: counter-clockwise to the viewer is negative.
+        let front = area < 0;
+        if !sheet && ((self.cull == Cull::Front && front) || (self.cull == Cull::Back && !front)) {
+            return Err(Skip::Culled);
+        }
+        let texels = self.window.intersect(self.reach.texels(bounds));
+        if texels.is_empty() {
+            return Err(Skip::Missed);
+        }
+        let (first, last) = (texels.min.as_uvec2() / BIN, (texels.max - 1).as_uvec2() / BIN);
+        let home = first.y * self.view.size().x.div_ceil(BIN) + first.x;
+        Ok((front, if first == last { home } else { SEVERAL }))
+    }
+}
+
+/// A block that is being made.
+pub(crate) struct Making<'a> {
+    pub setup: &'a Setup<'a>,
+    first: u32,
+    clipper: Clipper,
+    block: Block,
+}
+
+impl Making<'_> {
+    /// Takes one more triangle; its index is the number of those before it.
+    #[inline(never)]
+    pub fn add(&mut self, triangle: &Triangle) {
+        let made = self.piece(triangle);
+        self.count(&made);
+    }
+
+    /// Counts one triangle more, and why it was skipped where it was.
+    #[inline(always)]
+    fn count(&mut self, made: &Result<(), Skip>) {
+        let stats = &mut self.block.stats;
+        stats.given += 1;
+        match made {
+            Ok(()) => {}
+            Err(Skip::NotFinite) => stats.not_finite += 1,
+            Err(Skip::ZeroArea) => stats.zero_area += 1,
+            Err(Skip::Culled) => stats.culled += 1,
+            Err(Skip::Outside) => stats.outside += 1,
+            Err(Skip::Missed) => stats.missed += 1,
         }
     }
 
-    /// Takes one more triangle; its index is the number of those before it.
-    pub fn add(&mut self, triangle: &Triangle) {
-        let first = self.corners.len();
-        let skipped = self.piece(triangle).err();
-        self.stats.given += 1;
-        let count = match skipped {
-            None => return,
-            Some(Skip::NotFinite) => &mut self.stats.not_finite,
-            Some(Skip::ZeroArea) => &mut self.stats.zero_area,
-            Some(Skip::Culled) => &mut self.stats.culled,
-            Some(Skip::Outside) => &mut self.stats.outside,
-            Some(Skip::Missed) => &mut self.stats.missed,
+    /// Takes one more triangle that is not cut, of which the snapped corners and the plane are known.
+    #[inline(always)]
+    pub fn add_whole(&mut self, triangle: &Triangle, corners: [IVec2; 3], area: i64, plane: Affine, before_near: bool) {
+        let [a, b, c] = corners;
+        let bounds = (a.min(b).min(c), a.max(b).max(c));
+        let made = match self.setup.place(bounds, area, 3, triangle.sheet) {
+            Ok((front, home)) => {
+                self.block.stats.before_near += u64::from(before_near);
+                self.keep(triangle, plane, corners, (0, 3), front, home);
+                Ok(())
+            }
+            Err(skip) => Err(skip),
         };
-        *count += 1;
-        self.corners.truncate(first);
+        self.count(&made);
+    }
+
+    #[inline(always)]
+    fn keep(
+        &mut self,
+        triangle: &Triangle,
+        plane: Affine,
+        corners: [IVec2; 3],
+        (first, sides): (u32, u8),
+        front: bool,
+        home: u32,
+    ) {
+        let &Triangle { object, sheet, .. } = triangle;
+        let index = self.first + self.block.stats.given as u32;
+        self.block.pieces.push(Piece { plane, corners, first, triangle: index, object, sides, front, sheet });
+        self.block.homes.push(home);
     }
 
     fn piece(&mut self, triangle: &Triangle) -> Result<(), Skip> {
+        let view = self.setup.view;
         let world = triangle.corners;
-        if world.iter().any(|corner| !corner.abs().cmplt(DVec3::splat(1e30)).all()) {
+        if !world.iter().all(|corner| corner.abs().cmplt(DVec3::splat(FARTHEST)).all()) {
             return Err(Skip::NotFinite);
         }
         // Differences of f32 numbers are exact in f64 unless one is 2²⁹ times the other, and those of numbers about an f64 origin
@@ -128,78 +224,59 @@ impl<'a> Setup<'a> {
         if edges[0].cross(edges[1]) == DVec3::ZERO {
             return Err(Skip::ZeroArea);
         }
-        // Corner by corner: what is mapped over an array is not always inlined, and then costs a fifth of a plain bake.
-        let to_eye = self.world_to_eye;
+        let to_eye = view.world_to_eye();
         let edges = [to_eye.transform_vector3(edges[0]), to_eye.transform_vector3(edges[1])];
+        // Corner by corner: what is mapped over an array is not always inlined.
         let eye =
             [to_eye.transform_point3(world[0]), to_eye.transform_point3(world[1]), to_eye.transform_point3(world[2])];
         if !eye.iter().all(|corner| corner.is_finite()) {
             return Err(Skip::NotFinite);
         }
-        let limit = self.view.near() * NEAR_LIMIT;
+        let limit = view.near() * NEAR_LIMIT;
         let too_near = |corner: &DVec3| -corner.z > 0.0 && -corner.z < limit;
-        self.stats.too_near += u64::from(self.view.is_perspective() && eye.iter().any(too_near));
-        let projected = self.clipper.project(self.view, eye);
-        if projected.corners.len() < 3 {
+        self.block.stats.too_near += u64::from(view.is_perspective() && eye.iter().any(too_near));
+        let projected = self.clipper.project(view, eye);
+        let sides = projected.corners.len();
+        if sides < 3 {
             return Err(Skip::Outside);
         }
-        let first = self.corners.len();
-        self.corners.extend(projected.corners.iter().map(|corner| snap(*corner)));
-        let snapped = &self.corners[first..];
-        let cull = if triangle.sheet { Cull::None } else { self.cull };
-        let front = side(snapped, self.reach, self.window, cull)?;
-        let plane = plane(self.view, eye, edges[0].cross(edges[1]), projected.corners);
-        self.stats.clipped += u64::from(projected.clipped);
-        self.stats.before_near += u64::from(eye.iter().any(|corner| -corner.z < self.view.near()));
-        self.pieces.push(Piece {
-            plane,
-            first: first as u32,
-            triangle: self.stats.given as u32,
-            object: triangle.object,
-            sides: snapped.len() as u8,
-            front,
-            sheet: triangle.sheet,
-        });
+        let first = self.block.corners.len();
+        self.block.corners.extend(projected.corners.iter().map(|corner| snap(*corner)));
+        let snapped = &self.block.corners[first..];
+        let placed = self.setup.place(bounds(snapped), twice_area(snapped), sides, triangle.sheet);
+        let corners = [snapped[0], snapped[1], snapped[2]];
+        if placed.is_err() || sides == 3 {
+            self.block.corners.truncate(first);
+        }
+        let (front, home) = placed?;
+        let plane = plane(view, eye, edges[0].cross(edges[1]), projected.corners);
+        self.block.stats.clipped += u64::from(projected.clipped);
+        self.block.stats.before_near += u64::from(eye.iter().any(|corner| -corner.z < view.near()));
+        self.keep(triangle, plane, corners, (first as u32, sides as u8), front, home);
         Ok(())
     }
 }
 
-/// True when the outside of a polygon is seen; or why it is not drawn.
-fn side(snapped: &[IVec2], reach: Reach, window: TexelRect, cull: Cull) -> Result<bool, Skip> {
-    let (low, high) = bounds(snapped);
-    let touched = TexelRect::new(low >> 8, (high >> 8) + 1);
-    if window.intersect(touched).is_empty() {
-        return Err(Skip::Outside);
-    }
-    let area = twice_area(snapped);
-    // A cut polygon that snapping twisted may have no net area and still cover a sample.
-    if area == 0 && snapped.len() == 3 {
-        return Err(Skip::ZeroArea);
-    }
-    // Rows go down: counter-clockwise to the viewer is negative.
-    let front = area < 0;
-    if (cull == Cull::Front && front) || (cull == Cull::Back && !front) {
-        return Err(Skip::Culled);
-    }
-    if window.intersect(reach.texels(snapped)).is_empty() {
-        return Err(Skip::Missed);
-    }
-    Ok(front)
-}
+/// World coordinates of this size or more are not finite ([`Triangle::corners`]).
+pub(crate) const FARTHEST: f64 = 1e30;
 
 /// Rounds a texel position to 1/256 texel, ties to even: a function of the position alone. NaN, which only absurd projections make of finite corners, snaps to the guard band.
 fn snap(corner: DVec3) -> IVec2 {
-    // At 1.5·2⁵² an f64's last bit is 1, so adding rounds, and the low half of the bits is the integer.
-    const ROUND: f64 = 6_755_399_441_055_744.0;
-    let axis = |texel: f64| {
-        #[expect(clippy::manual_clamp, reason = "NaN must become a number")]
-        let inside = texel.max(-GUARD_TEXELS).min(GUARD_TEXELS);
-        (inside * f64::from(SUBTEXELS) + ROUND).to_bits() as i32
-    };
+    #[expect(clippy::manual_clamp, reason = "NaN must become a number")]
+    let axis = |texel: f64| rounded(texel.max(-GUARD_TEXELS).min(GUARD_TEXELS));
     IVec2::new(axis(corner.x), axis(corner.y))
 }
 
+/// A coordinate inside the guard band, in texels, rounded to 1/256 texel.
+#[inline(always)]
+pub(crate) fn rounded(texel: f64) -> i32 {
+    // At 1.5·2⁵² an f64's last bit is 1, so adding rounds, and the low half of the bits is the integer.
+    const ROUND: f64 = 6_755_399_441_055_744.0;
+    (texel * f64::from(SUBTEXELS) + ROUND).to_bits() as i32
+}
+
 /// The least and the greatest coordinates.
+#[inline(always)]
 pub(crate) fn bounds(corners: &[IVec2]) -> (IVec2, IVec2) {
     corners[1..].iter().fold((corners[0], corners[0]), |(low, high), corner| (low.min(*corner), high.max(*corner)))
 }
@@ -210,39 +287,30 @@ fn twice_area(corners: &[IVec2]) -> i64 {
     corners[1..].windows(2).map(|pair| from(pair[0]).perp_dot(from(pair[1]))).sum()
 }
 
-/// The texels whose sample may lie in the polygon, by its bounding box: inclusive at the low side, exclusive at the high.
-pub(crate) fn sampled(sampling: Sampling, corners: &[IVec2]) -> TexelRect {
-    let (low, high) = bounds(corners);
-    match sampling {
-        // The samples are at 256·i + 128; ⌈(v − 128) / 256⌉ is the first that is not before v.
-        Sampling::Centre => TexelRect::new((low + 127) >> 8, (high + 127) >> 8),
-        Sampling::Jittered { .. } => anywhere(corners),
-    }
-}
-
-/// The texels that the polygon's bounding box touches.
-fn anywhere(corners: &[IVec2]) -> TexelRect {
-    let (low, high) = bounds(corners);
-    TexelRect::new(low >> 8, (high + 255) >> 8)
-}
-
 /// The plane through a triangle, as a key over texels.
 ///
 /// A covered sample may lie off the triangle by half a snapping step, as its corners do. Where a whole step leads out of the triangle's own range of
 /// keys, it is so edge-on that its plane says nothing of use there: it gets its mean key everywhere. Otherwise a sample's key leaves the range by
 /// half of it at most.
 fn plane(view: &View, eye: [DVec3; 3], eye_normal: DVec3, corners: &[DVec3]) -> Affine {
-    // The corner nearest to the eye gives the plane's distance from the eye with the least cancellation.
-    let nearer = |a: DVec3, b: DVec3| if b.length_squared() < a.length_squared() { b } else { a };
-    let through = nearer(nearer(eye[0], eye[1]), eye[2]);
     let keys = corners.iter().map(|corner| corner.z);
     let low = keys.clone().fold(f64::INFINITY, f64::min);
     let high = keys.clone().fold(f64::NEG_INFINITY, f64::max);
+    let through = nearer(nearer(eye[0], eye[1]), eye[2]);
     view.affine(through, eye_normal)
-        .filter(|plane| (plane.dx.abs() + plane.dy.abs()) * (1.0 / f64::from(SUBTEXELS)) <= high - low)
+        .filter(|plane| (plane.dx.abs() + plane.dy.abs()) * STEP <= high - low)
         .unwrap_or_else(|| {
             let mean = keys.sum::<f64>() / corners.len() as f64;
             // Cuts of finite corners overflow when the near distance is absurdly small.
             Affine::constant(if mean.is_finite() { mean } else { view.key(view.near()) })
         })
 }
+
+/// The corner nearer to the eye: it gives the plane's distance from the eye with less cancellation.
+#[inline(always)]
+pub(crate) fn nearer(a: DVec3, b: DVec3) -> DVec3 {
+    if b.length_squared() < a.length_squared() { b } else { a }
+}
+
+/// One snap step, in texels.
+pub(crate) const STEP: f64 = 1.0 / SUBTEXELS as f64;

@@ -36,7 +36,7 @@ const RULES: &[Rule] = &[
     Rule {
         package: "umbrage-raster",
         arrows: &["umbrage-plane"],
-        outside: &["fearless_simd", "glam"],
+        outside: &["fearless_simd", "glam", "rayon"],
         tests: PROPERTIES,
     },
     Rule {

@@ -13,7 +13,7 @@ pub use refinement::Refinement;
 
 use crate::Caster;
 use crate::masks::Masks;
-use crate::pass1::Pass;
+use crate::pass1::{BY_WINDING, Pass};
 use budget::Level;
 use glam::{IVec2, UVec2};
 use merged::merged;
@@ -22,7 +22,7 @@ use refined::Refined;
 use std::collections::HashMap;
 use std::sync::Arc;
 use umbrage_depth::{FacetCells, FacetDepths, FacetMap, FacetRule, FacetTile, First, NO_FACET, Stored};
-use umbrage_plane::{Facet, Facing, Sampling, TexelRect, View};
+use umbrage_plane::{Sampling, TexelRect, View};
 use umbrage_raster::{BIN, Bins, Cull, Stats, each_fragment};
 
 /// Cells of a tile.
@@ -48,7 +48,7 @@ pub fn bake_facets<'a, R: FacetRule>(
     let mut masks = Masks::new(view);
     let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
     let bins = Bins::new(view, TexelRect::of_size(view.size()), cull, triangles);
-    let pass = Pass { view, fine: view, rule, masks: &masks, front: |facet: &Facet, _| facet.facing == Facing::Front };
+    let pass = Pass { view, fine: view, rule, masks: &masks, front: BY_WINDING };
     let stored = match (rule.stored(), cull) {
         (Stored::First, Cull::Front) => Stored::BackFace,
         (stored, _) => stored,

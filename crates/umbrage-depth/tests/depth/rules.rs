@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, IVec2, UVec2};
 use proptest::prelude::*;
-use umbrage_depth::{BackFace, DepthRule, First, Hit, Midpoint, SameSurface, Second, Stored};
+use umbrage_depth::{BackFace, DepthRule, First, Hit, Midpoint, RUN, SameSurface, Second, Stored};
 use umbrage_plane::{Affine, Facet, Facing, Kind, View};
 
 /// One surface over a texel.
@@ -311,4 +311,86 @@ fn hits_are_made_of_places_in_the_world() {
 fn rules_name_the_surface_they_store() {
     let names = [First.stored(), Second.stored(), BackFace.stored(), Midpoint::default().stored()];
     assert_eq!(names, [Stored::First, Stored::Second, Stored::BackFace, Stored::Midpoint]);
+}
+
+/// What one facet offers to a run of cells.
+type Offer = ([f32; RUN], u32, bool, bool);
+
+/// Keys in perspective, some of them equal, a last bit apart, or not there.
+fn keys() -> impl Strategy<Value = [f32; RUN]> {
+    let key = || {
+        prop_oneof![
+            Just(f32::NAN),
+            Just(-0.25_f32),
+            Just((-0.25_f32).next_up()),
+            Just((-0.25_f32).next_down()),
+            -0.25_f32..-0.2499,
+            -1.0_f32..0.0,
+        ]
+    };
+    proptest::array::uniform8(key())
+}
+
+fn offers() -> impl Strategy<Value = Vec<Offer>> {
+    proptest::collection::vec((keys(), 0_u32..3, any::<bool>(), any::<bool>()), 0..9)
+}
+
+/// A run of cells after all passes: cell by cell, or as a whole and only as long as it is not settled.
+fn run<R: DepthRule>(rule: &R, offers: &[Offer], whole: bool) -> [f32; RUN] {
+    let mut cells = [R::EMPTY; RUN];
+    for pass in 0..R::PASSES {
+        if whole && pass > 0 && rule.settled(&cells) {
+            break;
+        }
+        for &(keys, object, front, sheet) in offers {
+            let facing = if front { Facing::Front } else { Facing::Back };
+            let facet = Facet { plane: Affine::constant(0.0), facing, triangle: 0, object, sheet };
+            if whole {
+                rule.add_run(pass, &mut cells, &keys, front, &facet);
+            } else {
+                for (cell, key) in cells.iter_mut().zip(keys) {
+                    rule.add(pass, cell, key, front, &facet);
+                }
+            }
+        }
+    }
+    cells.map(|cell| rule.resolve(cell, &perspective().decode(), AT))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2_000))]
+
+    #[test]
+    fn whole_runs_and_passes_left_out_change_no_depth(offers in offers(), merge in prop_oneof![Just(1e-6_f32), Just(0.0), Just(-1.0), Just(0.3)]) {
+        let law = |name: &str, [cells, whole]: [[f32; RUN]; 2]| {
+            prop_assert_eq!(cells.map(f32::to_bits), whole.map(f32::to_bits), "{}: {:?}", name, offers);
+            Ok(())
+        };
+        law("first", [false, true].map(|whole| run(&First, &offers, whole)))?;
+        law("second", [false, true].map(|whole| run(&Second, &offers, whole)))?;
+        law("back face", [false, true].map(|whole| run(&BackFace, &offers, whole)))?;
+        for same in [SameSurface::Depth, SameSurface::Object, SameSurface::Surface] {
+            let rule = Midpoint::default().with_same(same).with_merge(merge);
+            law("midpoint", [false, true].map(|whole| run(&rule, &offers, whole)))?;
+        }
+    }
+
+    #[test]
+    fn w92_4_the_second_surface_is_the_nearest_that_does_not_coincide_with_the_first(
+        offers in offers(), merge in prop_oneof![Just(1e-6_f32), Just(0.0), Just(-1.0), Just(0.3)],
+    ) {
+        let rule = Midpoint::default().with_merge(merge).with_ratio(1.0);
+        let found = run(&rule, &offers, true);
+        for (lane, found) in found.into_iter().enumerate() {
+            let keys = || offers.iter().map(|offer| offer.0[lane]).filter(|key| !key.is_nan());
+            let first = keys().fold(INF, f32::min);
+            let apart = |key: &f32| {
+                let (first, key) = (f64::from(first), f64::from(*key));
+                key - first > f64::from(merge) * first.abs().max(key.abs())
+            };
+            let second = keys().filter(apart).fold(INF, f32::min);
+            let expected = if second == INF { INF } else { (-1.0 / f64::from(second)) as f32 };
+            prop_assert_eq!(found, expected, "{:?}", offers);
+        }
+    }
 }

@@ -5,7 +5,7 @@ use crate::scenes::{ball, samplings, sizes, turns};
 use glam::{DVec3, IVec2, Quat, UVec2, Vec3};
 use proptest::prelude::*;
 use umbrage_plane::{Facet, Sampling, TexelRect, View};
-use umbrage_raster::{Bins, Coverage, Cull, Triangle};
+use umbrage_raster::{Bins, Coverage, Cull, RUN, Stats, Triangle, each_fragment, each_run};
 
 fn camera(size: UVec2) -> View {
     Camera::new(DVec3::new(1.0, 2.0, 6.0), DVec3::ZERO, 0.5, true, size).view(1.0, 100.0)
@@ -92,5 +92,79 @@ fn no_order_of_calls_and_no_thread_changes_a_tile() {
                 });
             }
         });
+    }
+}
+
+#[test]
+fn triangles_are_set_up_the_same_alone_among_others_and_by_any_thread() {
+    // Small and large ones, behind the eye and around it, and some that are none, over several blocks whose last is not full.
+    let mut triangles = Vec::new();
+    for (radius, turn) in [(2.0, 0.1), (9.0, 0.2), (0.3, 0.3), (40.0, 0.4)] {
+        triangles.extend(ball(Vec3::ZERO, &[radius, radius * 0.7, radius * 1.1], 33, 47, Quat::from_rotation_z(turn)));
+    }
+    for (index, triangle) in triangles.iter_mut().enumerate().step_by(11) {
+        let next = triangle.corners[(index + 1) % 3];
+        let corner = &mut triangle.corners[index % 3];
+        match index % 5 {
+            0 => corner.x = f64::NAN,
+            1 => corner.y = 1e30,
+            2 => corner.z = -1e29,
+            3 => *corner = next,
+            _ => corner.x *= 1e9,
+        }
+    }
+    assert!(triangles.len() > 11_000 && !triangles.len().is_multiple_of(1024));
+    for perspective in [true, false] {
+        let half = if perspective { 0.5 } else { 5.0 };
+        let eye = DVec3::new(1.0, 2.0, 6.0);
+        let view = Camera::new(eye, DVec3::ZERO, half, perspective, UVec2::new(193, 131)).view(1.0, 100.0);
+        let made = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| bins(&view, triangles.iter().copied()))
+        };
+        let one = made(1);
+        assert!(one.stats().kept() > 1000 && one.facets().len() as u64 == one.stats().kept());
+        // A triangle among eight of a block is not set up the way that one alone is.
+        let (mut facets, mut stats) = (Vec::new(), Stats::default());
+        for (triangle, index) in triangles.iter().zip(0..) {
+            let alone = bins(&view, [*triangle]);
+            stats += alone.stats();
+            let facet = alone.facet(0).map(|facet| Facet { triangle: index, ..facet });
+            assert_eq!(one.facet(index), facet);
+            facets.extend(facet);
+        }
+        assert_eq!(one.stats(), stats);
+        assert!(one.facets().eq(facets.iter().copied()));
+        let count = one.tiles().element_product();
+        for several in [2, 5].map(made) {
+            assert_eq!(several.stats(), stats);
+            assert!(several.facets().eq(facets.iter().copied()));
+            assert!((0..count).all(|index| tile(&several, index) == tile(&one, index)));
+        }
+    }
+}
+
+#[test]
+fn runs_are_the_fragments_eight_at_a_time() {
+    for sampling in [Sampling::Centre, Sampling::Jittered { seed: 77 }] {
+        let view = camera(UVec2::new(193, 131)).with_sampling(sampling);
+        let bins = bins(&view, bumpy(Quat::from_rotation_x(0.4)));
+        let mut counted = 0;
+        for at in TexelRect::of_size(bins.tiles()).texels() {
+            bins.tile(at.as_uvec2(), |facet, coverage| {
+                let (mut single, mut runs) = (Vec::new(), Vec::new());
+                each_fragment(&view, at * 32, facet, coverage, |cell, _, key| single.push((cell, key.to_bits())));
+                each_run(&view, at * 32, facet, coverage, |first, keys| {
+                    assert!(first % RUN == 0 && keys.iter().any(|key| !key.is_nan()));
+                    let covered = (first..).zip(keys).filter(|(_, key)| !key.is_nan());
+                    runs.extend(covered.map(|(cell, key)| (cell, key.to_bits())));
+                });
+                runs.sort_unstable();
+                assert_eq!(runs, single);
+                assert_eq!(coverage.count() as usize, single.len());
+                counted += single.len();
+            });
+        }
+        assert!(counted > 10_000, "{counted} fragments");
     }
 }
