@@ -1,0 +1,28 @@
+//! What the report is made of: each row is ours beside a peer, measured in turn in this program, with the goal that it has.
+
+mod filters;
+mod job;
+mod pass1;
+mod rows;
+mod threads;
+
+pub use rows::{Goal, Row, Settings};
+
+use crate::in_pool;
+
+/// Measures everything; `say` is given a line for each row, and for each other fact by name, as soon as it is known.
+pub fn measure(settings: Settings, mut say: impl FnMut(String)) {
+    let mut rows = |rows: Vec<Row>| rows.into_iter().for_each(|row| say(row.to_string()));
+    for &side in settings.sides() {
+        rows(in_pool(1, || pass1::raster(settings, side)));
+        rows(in_pool(1, || pass1::rules(settings, side)));
+    }
+    for &side in settings.sides() {
+        rows(in_pool(1, || filters::look_ups(settings, side)));
+    }
+    rows(in_pool(1, || job::whole(settings)));
+    let (spin, scaling) = threads::two(settings);
+    rows(scaling);
+    say(format!("fact\tspin\t{spin:.2}"));
+    say(format!("fact\tinstructions\t{}", crate::kernels::instruction_set()));
+}
