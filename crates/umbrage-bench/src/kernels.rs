@@ -13,8 +13,8 @@ use umbrage_shadow::{DualPlane, Filter, ShadowMap, Simd};
 
 /// Side of the kernels' maps, texels.
 const SIDE: u32 = 512;
-/// Side of the picture whose regions are looked up.
-const PICTURE: u32 = 128;
+/// Of a picture of as many pixels, one of so many is looked up.
+const STEP: usize = 16;
 
 /// Their names.
 pub const NAMES: [&str; 5] = ["pcf-raw", "auto", "bins-tiny", "tiles-layers", "pcf-plane-raw"];
@@ -47,7 +47,7 @@ pub fn run(name: &str) -> Option<usize> {
 fn look_up<F: Filter, M: umbrage_depth::DepthMap>(
     make: impl Fn(&umbrage_plane::View, &[umbrage_raster::Triangle]) -> (F, M),
 ) -> usize {
-    let (scene, view) = (Scene::new(Segments::SMALL, PICTURE), Scene::view(SIDE));
+    let (scene, view) = (Scene::sparse(Segments::SMALL, SIDE, STEP), Scene::view(SIDE));
     let (filter, map) = make(&view, &scene.mesh.casters());
     let (shadow, receivers) = (ShadowMap { filter, map }, scene.receivers(&view));
     let mut out = vec![f32::NAN; receivers.len()];

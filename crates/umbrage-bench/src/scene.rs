@@ -18,7 +18,7 @@ const CAMERA: DVec3 = DVec3::new(0.0, 14.0, 9.0);
 pub struct Scene {
     /// The triangles.
     pub mesh: Mesh,
-    /// One for each pixel, row by row, with the pixel's extent on the surface.
+    /// One for each pixel that is asked, row by row, with the pixel's extent on the surface.
     pub points: Vec<SurfacePoint>,
 }
 
@@ -37,12 +37,17 @@ impl Segments {
 
 impl Scene {
     /// A scene seen by `side`² pixels.
+    pub fn new(segments: Segments, side: u32) -> Self {
+        Self::sparse(segments, side, 1)
+    }
+
+    /// A scene seen by the first of every `step` pixels of `side`²: less to do, with regions as small as a whole picture's.
     ///
     /// # Panics
-    /// When a pixel sees nothing.
-    pub fn new(Segments(along, around): Segments, side: u32) -> Self {
+    /// When `step` is 0.
+    pub fn sparse(Segments(along, around): Segments, side: u32, step: usize) -> Self {
         let mesh = knot_on_ground(along, around);
-        let points = seen(&mesh, side);
+        let points = seen(&mesh, side, step);
         Self { mesh, points }
     }
 
@@ -82,9 +87,9 @@ pub fn bias(view: &View) -> [f32; 2] {
     [4.0 * texel, 5.0 * texel]
 }
 
-/// What a camera of `side`² pixels sees.
-fn seen(mesh: &Mesh, side: u32) -> Vec<SurfacePoint> {
-    let tree = Tree::careful(mesh);
+/// What the first of every `step` pixels of a camera of `side`² sees.
+fn seen(mesh: &Mesh, side: u32, step: usize) -> Vec<SurfacePoint> {
+    let tree = Tree::of_eight(mesh);
     let ahead = (DVec3::new(0.0, 0.5, 0.0) - CAMERA).normalize();
     let right = ahead.cross(DVec3::Y).normalize();
     let down = ahead.cross(right);
@@ -96,7 +101,7 @@ fn seen(mesh: &Mesh, side: u32) -> Vec<SurfacePoint> {
     let point = |region: u32| {
         let pixel = DVec2::new(f64::from(region % side), f64::from(region / side));
         let middle = direction(pixel + 0.5);
-        let (triangle, _) = tree.nearest(CAMERA.as_vec3(), middle.as_vec3()).expect("the ground is everywhere");
+        let triangle = tree.nearest(CAMERA.as_vec3(), middle.as_vec3()).expect("the ground is everywhere");
         let [a, b, c] = mesh.corners(triangle).map(Vec3::as_dvec3);
         let normal = (b - a).cross(c - a).normalize();
         let normal = if normal.dot(middle) < 0.0 { normal } else { -normal };
@@ -108,5 +113,5 @@ fn seen(mesh: &Mesh, side: u32) -> Vec<SurfacePoint> {
         let grazing = corners.iter().any(|corner| normal.dot(*corner) > -0.02);
         if grazing { point } else { point.with_corners(corners.map(on_plane)) }
     };
-    (0..side * side).map(point).collect()
+    (0..side * side).step_by(step).map(point).collect()
 }
