@@ -28,6 +28,9 @@ fn meshes(criterion: &mut Criterion) {
         let mut software = Software::new(&workload.view);
         software.draw(&workload.mesh);
         workload.assert_drawn(&baked, &software);
+        let (mut buffer, layers) = (vec![0.0; side as usize * side as usize], workload.limit_layers(&baked));
+        clear_and_min(&mut buffer, layers);
+        assert!(buffer.iter().all(|depth| *depth == 1.0), "the nearest layer is left");
         let mut group = criterion.benchmark_group(format!("pass1/{}", workload.name));
         group.sample_size(10).throughput(Throughput::Elements(baked.fragments));
         group.bench_function(BenchmarkId::new("ours", side), |bencher| {
@@ -36,11 +39,9 @@ fn meshes(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::new("euc", side), |bencher| {
             bencher.iter(|| software.draw(black_box(&workload.mesh)));
         });
-        let (mut buffer, layers) = (vec![0.0; side as usize * side as usize], workload.limit_layers(&baked));
         group.bench_function(BenchmarkId::new("memory", side), |bencher| {
             bencher.iter(|| clear_and_min(&mut buffer, layers));
         });
-        assert!(buffer.iter().all(|depth| *depth == 1.0), "the nearest layer is left");
         group.finish();
     }
 }
@@ -53,7 +54,12 @@ fn rules(criterion: &mut Criterion) {
         let (coarse, fine) = (facets(view, casters).map, refined(view, casters).map);
         for texel in umbrage_plane::TexelRect::of_size(view.size()).texels().step_by(97) {
             assert_eq!(coarse.depth(texel), depths.depth(texel), "facets at {texel}");
-            assert_eq!(fine.depth(texel), depths.depth(texel), "refined facets at {texel}");
+            // Samples of a refined map may share a plane that is nearly their own.
+            let (found, own) = (fine.depth(texel), depths.depth(texel));
+            assert!(
+                found == own || (found - own).abs() < 1e-4 * own,
+                "refined facets at {texel}: {found} beside {own}"
+            );
         }
         println!(
             "{side}²: facets {} bytes, refined {} bytes, tiles {}",

@@ -23,27 +23,32 @@ fn picture(criterion: &mut Criterion) {
         let places = listing::places(&receivers, side);
         let map = Raw::copy_of(&first(&view, &scene.mesh.casters()).map);
         let mut out = vec![f32::NAN; points.len()];
+        listing::fractions(&map, &places, HALF, bias(&view), &mut out);
+        listing::assert_as_printed(&map, &places, HALF, bias(&view), &out);
+        let dark = mean(&out);
         group.bench_function(BenchmarkId::new("listing/raw/light", side), |bencher| {
             bencher.iter(|| listing::fractions(&map, black_box(&places), HALF, bias(&view), &mut out));
         });
-        listing::assert_as_printed(&map, &places, HALF, bias(&view), &out);
-        let dark = mean(&out);
         let mut seen = vec![Err(Place::Behind); points.len()];
+        view.receivers(points, &mut seen);
+        assert!(seen.iter().zip(&receivers).all(|(seen, receiver)| *seen == Ok(*receiver)), "the same receivers");
         group.bench_function(BenchmarkId::new("transform", side), |bencher| {
             bencher.iter(|| view.receivers(black_box(points), &mut seen));
         });
-        assert!(seen.iter().zip(&receivers).all(|(seen, receiver)| *seen == Ok(*receiver)), "the same receivers");
+        let mut other = vec![f32::NAN; points.len()];
         for look_up in all(&scene, &view) {
+            look_up.of_points(points, &mut out);
+            look_up.of_receivers(&receivers, &mut other);
+            assert_eq!(out, other, "{look_up:?} from both spaces");
+            let found = mean(&out);
+            assert!((found - dark).abs() < 0.03, "{look_up:?} finds {found} in shadow, the listing {dark}");
             let id = |from| BenchmarkId::new(format!("{}/{}/{from}", look_up.filter, look_up.storage), side);
             group.bench_function(id("world"), |bencher| {
                 bencher.iter(|| look_up.of_points(black_box(points), &mut out));
             });
-            let found = mean(&out);
-            assert!((found - dark).abs() < 0.03, "{look_up:?} finds {found} in shadow, the listing {dark}");
             group.bench_function(id("light"), |bencher| {
                 bencher.iter(|| look_up.of_receivers(black_box(&receivers), &mut out));
             });
-            assert_eq!(mean(&out), found, "{look_up:?} from both spaces");
         }
         group.finish();
     }

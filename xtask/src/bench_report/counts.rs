@@ -15,6 +15,7 @@ const MOST: f64 = 0.02;
 const KERNELS: [&str; 5] = ["pcf-raw", "auto", "bins-tiny", "tiles-layers", "pcf-plane-raw"];
 
 /// Functions whose closures belong inside them: one that stands alone is called for every sixteen taps, with its vectors in memory.
+/// Closures of `umbrage_plane::batch` and of the filter `dual_plane` hold no vectors; they may stand alone.
 const INLINED: [&str; 7] = [
     "umbrage_shadow::query::Query",
     "umbrage_shadow::depths::",
