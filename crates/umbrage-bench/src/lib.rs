@@ -1,6 +1,6 @@
 //! The workloads that Umbrage is measured with, and the peers that it is measured beside.
 //!
-//! Criterion's benches and the program behind `cargo xtask bench-report` share them, so that both speak of the same triangles,
+//! Criterion's benches and the program behind `cargo xtask bench-report` share them, so that both measure the same triangles,
 //! maps and receivers.
 //!
 //! * [`meshes`]: triangles for the rasteriser, from eight layers that fill the map to a million of one texel each.

@@ -120,9 +120,9 @@ fn counted(root: &Path, program: &Path, kernel: &str, compiler: &str) -> anyhow:
         .current_dir(root)
         .output()
         .context("valgrind")?;
-    let (said, collected) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    let (printed, collected) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     ensure!(output.status.success(), "valgrind of {kernel}: {collected}");
-    let line = said.lines().find_map(|line| line.strip_prefix("kernel\t")).context("the program says nothing")?;
+    let line = printed.lines().find_map(|line| line.strip_prefix("kernel\t")).context("the program prints no count")?;
     let [_, elements, set] = line.split('\t').collect::<Vec<_>>()[..] else { bail!("{line:?}") };
     let instructions = collected_in(&collected).with_context(|| format!("callgrind counts nothing: {collected}"))?;
     ensure!(instructions > 0, "callgrind did not find the kernel {kernel}");
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn closures_of_kernels_are_told_from_others() {
+    fn closures_of_kernels_are_distinguished_from_others() {
         let symbols = "0000000000001000 t <umbrage_shadow::query::Query<S,M,P>>::share_by::{{closure}}\n\
                        0000000000001000 t umbrage_shadow::query::Query<S,M,P>::share_by\n\
                        0000000000002000 t umbrage_bake::pass1::bake::{{closure}}\n\

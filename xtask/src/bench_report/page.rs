@@ -104,9 +104,10 @@ const WIDTH: f64 = 1000.0;
 const LEFT: f64 = 400.0;
 const RIGHT: f64 = 960.0;
 const BAR: f64 = 9.0;
-const INKS: [&str; 3] = ["#3b78c2", "#c8681e", "#6b6f76"];
+/// Ours and the peer's under each set of flags.
+const INKS: [[&str; 2]; 2] = [["#3b78c2", "#6b6f76"], ["#c8681e", "#b3b6bb"]];
 
-/// Bars of every row on a logarithmic axis: ours under each set of flags, and below them the peer's under the first.
+/// Bars of every row on a logarithmic axis: ours and below it the peer's, under each set of flags.
 pub fn svg(facts: &Facts, columns: &[Column]) -> String {
     let mut body = String::new();
     let mut y = 30.0;
@@ -117,13 +118,13 @@ pub fn svg(facts: &Facts, columns: &[Column]) -> String {
         write(&mut body, 16.0, y, "start", &line);
         y += 18.0;
     }
-    let mut keys: Vec<(&str, String)> =
-        columns.iter().zip(INKS).map(|(column, ink)| (ink, format!("ours, {}", column.flags))).collect();
-    keys.push((INKS[2], format!("peer, {}", columns[0].flags)));
-    for (index, (ink, key)) in keys.iter().enumerate() {
-        let x = 16.0 + 260.0 * index as f64;
+    let keys = columns.iter().zip(INKS).flat_map(|(column, inks)| {
+        ["ours", "peer"].into_iter().zip(inks).map(|(whose, ink)| (ink, format!("{whose}, {}", column.flags)))
+    });
+    for (index, (ink, key)) in keys.enumerate() {
+        let x = 16.0 + 240.0 * index as f64;
         let _ = writeln!(body, "<rect x=\"{x}\" y=\"{:.1}\" width=\"14\" height=\"{BAR}\" fill=\"{ink}\"/>", y - BAR);
-        write(&mut body, x + 20.0, y, "start", key);
+        write(&mut body, x + 20.0, y, "start", &key);
     }
     let rows = &columns[0].report.rows;
     let mut from = 0;
@@ -176,12 +177,12 @@ fn group(body: &mut String, mut y: f64, columns: &[Column], rows: std::ops::Rang
             );
             y += BAR + 1.0;
         };
-        for (column, ink) in columns.iter().zip(INKS) {
+        for (column, [ink, peers_ink]) in columns.iter().zip(INKS) {
             let Some(row) = column.report.rows.get(index) else { continue };
             bar(ink, row.ours, if row.met() == Some(false) { " goal missed" } else { "" });
+            bar(peers_ink, row.theirs, "");
         }
-        bar(INKS[2], row.theirs, "");
-        let middle = y - (BAR + 1.0) * (columns.len() + 1) as f64 / 2.0 + 4.0;
+        let middle = y - (BAR + 1.0) * columns.len() as f64 + 4.0;
         let _ = writeln!(
             bars,
             "<text x=\"{}\" y=\"{middle:.1}\" text-anchor=\"end\" font-size=\"11\">{}</text>",

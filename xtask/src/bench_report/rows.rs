@@ -1,4 +1,4 @@
-//! The rows that the program prints, and what they say about their goals.
+//! The rows that the program prints, and whether they reach their goals.
 
 use anyhow::{Context as _, bail, ensure};
 

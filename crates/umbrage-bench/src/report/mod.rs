@@ -10,9 +10,9 @@ pub use rows::{Goal, Row, Settings};
 
 use crate::in_pool;
 
-/// Measures everything; `say` is given a line for each row, and for each other fact by name, as soon as it is known.
-pub fn measure(settings: Settings, mut say: impl FnMut(String)) {
-    let mut rows = |rows: Vec<Row>| rows.into_iter().for_each(|row| say(row.to_string()));
+/// Measures everything, and calls `print` with a line of text for each row as soon as it is known, then for each other fact.
+pub fn measure(settings: Settings, mut print: impl FnMut(String)) {
+    let mut rows = |rows: Vec<Row>| rows.into_iter().for_each(|row| print(row.to_string()));
     for &side in settings.sides() {
         rows(in_pool(1, || pass1::raster(settings, side)));
         rows(in_pool(1, || pass1::rules(settings, side)));
@@ -23,6 +23,6 @@ pub fn measure(settings: Settings, mut say: impl FnMut(String)) {
     rows(in_pool(1, || job::whole(settings)));
     let (spin, scaling) = threads::two(settings);
     rows(scaling);
-    say(format!("fact\tspin\t{spin:.2}"));
-    say(format!("fact\tinstructions\t{}", crate::kernels::instruction_set()));
+    print(format!("fact\tspin\t{spin:.2}"));
+    print(format!("fact\tinstructions\t{}", crate::kernels::instruction_set()));
 }
