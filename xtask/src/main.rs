@@ -1,6 +1,7 @@
-//! The project's chores: `figures`, `ci`, `tidy`, `dist`. This program starts others and reads sources; it uses no crate of
+//! The project's chores: `figures`, `ci`, `tidy`, `dist`, `bench-report`. This program starts others and reads sources; it uses no crate of
 //! Umbrage, so that it is there in seconds.
 
+mod bench_report;
 mod ci;
 mod dist;
 mod figures;
@@ -23,6 +24,9 @@ Commands:
   ci       Everything that must hold before a change is taken
   tidy     Check dependency arrows, circles of modules, allowed packages, file sizes, links and words that must not be there
   dist     Build the command, and put it with its manual pages and completions into target/dist
+  bench-report
+           Measure beside other rasterisers, rays and the memory's limit, and make a table and a diagram of it;
+           `cargo xtask bench-report --help` lists its options
   help     Print this
 ";
 
@@ -31,6 +35,8 @@ Commands:
 enum Chore {
     /// The figures' program with these arguments.
     Figures(Vec<OsString>),
+    /// The report of measurements, with its options.
+    BenchReport(Vec<OsString>),
     Ci,
     Tidy,
     Dist,
@@ -44,6 +50,7 @@ fn chore(args: impl IntoIterator<Item = OsString>) -> Result<Chore, String> {
     let rest: Vec<OsString> = args.collect();
     let chore = match name.to_str() {
         Some("figures") => return Ok(Chore::Figures(rest)),
+        Some("bench-report") => return Ok(Chore::BenchReport(rest)),
         Some("help" | "--help" | "-h") => return Ok(Chore::Help),
         Some("ci") => Chore::Ci,
         Some("tidy") => Chore::Tidy,
@@ -69,6 +76,7 @@ fn main() -> ExitCode {
     };
     let ended = match chore {
         Chore::Figures(args) => figures::run(&root(), &args),
+        Chore::BenchReport(args) => bench_report::run(&root(), &args).map(good_or_failed),
         Chore::Ci => ci::run(&root()).map(good_or_failed),
         Chore::Tidy => tidy(&root()).map(good_or_failed),
         Chore::Dist => dist::run(&root()).map(good_or_failed),
@@ -120,14 +128,16 @@ mod tests {
         }
         assert_eq!(of(&["ci", "--help"]), Ok(Chore::Help));
         assert_eq!(of(&["dist"]), Ok(Chore::Dist));
-        assert!(["figures", "ci", "tidy", "dist"].iter().all(|name| HELP.contains(&format!("\n  {name} "))));
+        let names = ["figures ", "ci ", "tidy ", "dist ", "bench-report\n"];
+        assert!(names.iter().all(|name| HELP.contains(&format!("\n  {name}"))));
     }
 
     #[test]
-    fn the_arguments_of_figures_go_on_as_they_are() {
+    fn the_arguments_of_figures_and_of_the_report_go_on_as_they_are() {
         let args = ["--only", "R87-F7", "--help", "--", "-q"];
         let all = of(&[&["figures"], args.as_slice()].concat());
         assert_eq!(all, Ok(Chore::Figures(args.map(OsString::from).to_vec())));
+        assert_eq!(of(&["bench-report", "-h"]), Ok(Chore::BenchReport(vec!["-h".into()])));
     }
 
     #[test]

@@ -1,6 +1,7 @@
-//! Look-ups: receivers of a camera's sweep to fractions in shadow.
+//! Look-ups as recipes bind them, with patterns and storages that are known only at run time: receivers of a camera's sweep to
+//! fractions in shadow. `pass2` has filters whose types are known.
 //!
-//! Ids: `shadow/<filter>/<storage>/<samples>`, elements are receivers.
+//! Ids: `shadow/<recipe>/<storage>/<samples>`, elements are receivers.
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{UVec2, Vec3};
 use std::hint::black_box;

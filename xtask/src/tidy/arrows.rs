@@ -110,7 +110,12 @@ const RULES: &[Rule] = &[
         ],
         tests: &[],
     },
-    Rule { package: "umbrage-bench", arrows: EVERY, outside: &[], tests: &["criterion", "glam"] },
+    Rule {
+        package: "umbrage-bench",
+        arrows: EVERY,
+        outside: &["cpu-time", "euc", "glam", "obvhs", "rayon"],
+        tests: &["criterion"],
+    },
     Rule { package: "umbrage-examples", arrows: EVERY, outside: &[], tests: &["glam"] },
     Rule {
         package: "umbrage-fuzz",

@@ -1,0 +1,71 @@
+//! The five hottest loops, each alone behind [`measured`], so that a profiler can count what is inside it and nothing else.
+
+use crate::in_pool;
+use crate::look_ups::{closer, on_plane, ready};
+use crate::meshes::{grid, layers, straight};
+use crate::raster::{first, refined};
+use crate::scene::{Scene, Segments};
+use std::hint::black_box;
+use umbrage_depth::Raw;
+use umbrage_plane::{TexelRect, vectorized};
+use umbrage_raster::{Bins, Cull};
+use umbrage_shadow::{DualPlane, Filter, ShadowMap, Simd};
+
+/// Side of the kernels' maps, texels.
+const SIDE: u32 = 512;
+/// Of a picture of as many pixels, one of so many is looked up.
+const STEP: usize = 16;
+
+/// Their names.
+pub const NAMES: [&str; 5] = ["pcf-raw", "auto", "bins-tiny", "tiles-layers", "pcf-plane-raw"];
+
+/// Runs a kernel once, in a thread of its own pool; nothing where there is none of that name. The number of elements: receivers,
+/// triangles or texels.
+pub fn run(name: &str) -> Option<usize> {
+    in_pool(1, || {
+        Some(match name {
+            "pcf-raw" => look_up(|view, casters| (closer(view), Raw::copy_of(&first(view, casters).map))),
+            "pcf-plane-raw" => look_up(|view, casters| (on_plane(view), Raw::copy_of(&first(view, casters).map))),
+            "auto" => look_up(|view, casters| (DualPlane::default(), refined(view, casters).map)),
+            "bins-tiny" => {
+                let (view, casters) = (straight(SIDE), grid(200, 282, SIDE).casters());
+                let window = TexelRect::of_size(view.size());
+                measured(&mut || drop(black_box(Bins::new(&view, window, Cull::None, casters.iter().copied()))));
+                casters.len()
+            }
+            "tiles-layers" => {
+                let (view, casters) = (straight(SIDE), layers(8).casters());
+                measured(&mut || drop(black_box(first(&view, &casters))));
+                SIDE as usize * SIDE as usize * 8
+            }
+            _ => return None,
+        })
+    })
+}
+
+/// A filter over a map, asked about receivers that are in the light's space.
+fn look_up<F: Filter, M: umbrage_depth::DepthMap>(
+    make: impl Fn(&umbrage_plane::View, &[umbrage_raster::Triangle]) -> (F, M),
+) -> usize {
+    let (scene, view) = (Scene::sparse(Segments::SMALL, SIDE, STEP), Scene::view(SIDE));
+    let (filter, map) = make(&view, &scene.mesh.casters());
+    let (shadow, receivers) = (ShadowMap { filter, map }, scene.receivers(&view));
+    let mut out = vec![f32::NAN; receivers.len()];
+    measured(&mut || ready(&shadow, black_box(&receivers), &mut out));
+    assert!(out.iter().all(|fraction| (0.0..=1.0).contains(fraction)), "fractions");
+    out.len()
+}
+
+/// What profilers look for.
+#[inline(never)]
+pub fn measured(kernel: &mut dyn FnMut()) {
+    kernel();
+}
+
+/// The set of instructions that kernels are run with.
+pub fn instruction_set() -> &'static str {
+    fn name<S: Simd>(_: S) -> &'static str {
+        std::any::type_name::<S>().rsplit("::").next().unwrap_or("")
+    }
+    vectorized!(simd => name(simd))
+}

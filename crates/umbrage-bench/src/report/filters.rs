@@ -1,0 +1,98 @@
+//! Rows of look-ups: every filter beside the listing, beside plain percentage closer, or beside itself over another storage.
+
+use super::rows::{Goal, Row, Settings};
+use crate::look_ups::{all, mean};
+use crate::peers::listing;
+use crate::raster::first;
+use crate::scene::{HALF, Scene, Segments, bias};
+use crate::timing::{medians, processor_seconds};
+use std::cell::RefCell;
+use std::hint::black_box;
+use umbrage_depth::Raw;
+use umbrage_plane::Place;
+
+/// How far the mean fraction of any filter may lie from the listing's: they look at regions of several sizes, and are wrong in ways
+/// of their own where the tube curves away.
+const FAR: f64 = 0.03;
+
+/// The same for what does as the listing does, with other random numbers.
+const SAME: f64 = 0.002;
+
+/// What a look-up is measured from.
+const FROM: [&str; 2] = ["", ", without transform"];
+
+/// All look-ups in maps of one size.
+pub fn look_ups(settings: Settings, side: u32) -> Vec<Row> {
+    let segments = if settings.quick { Segments::SMALL } else { Segments::MEDIUM };
+    let scene = Scene::new(segments, settings.picture());
+    let (points, view) = (&scene.points, Scene::view(side));
+    let receivers = scene.receivers(&view);
+    let places = listing::places(&receivers, side);
+    let map = Raw::copy_of(&first(&view, &scene.mesh.casters()).map);
+    let look_ups = all(&scene, &view);
+
+    let mut theirs = vec![0.0; points.len()];
+    listing::fractions(&map, &places, HALF, bias(&view), &mut theirs);
+    listing::assert_as_printed(&map, &places, HALF, bias(&view), &theirs);
+    let dark = mean(&theirs);
+    assert!((0.05..0.5).contains(&dark), "the listing finds {dark} in shadow");
+    let (mut of_points, mut of_receivers) = (theirs.clone(), theirs.clone());
+    for look_up in &look_ups {
+        look_up.of_points(points, &mut of_points);
+        look_up.of_receivers(&receivers, &mut of_receivers);
+        assert_eq!(of_points, of_receivers, "{look_up:?}: the transform is that of the receivers");
+        let found = mean(&of_points);
+        let far = if look_up.filter == "pcf-bias" { SAME } else { FAR };
+        assert!((found - dark).abs() < far, "{look_up:?} finds {found} in shadow, the listing {dark}");
+    }
+
+    let mut seen = vec![Err(Place::Behind); points.len()];
+    let out = RefCell::new(of_points);
+    let mut listed = || listing::fractions(&map, black_box(&places), HALF, bias(&view), &mut out.borrow_mut());
+    let mut transform = || view.receivers(black_box(points), &mut seen);
+    let mut ours: Vec<Box<dyn FnMut() + '_>> = Vec::new();
+    for look_up in &look_ups {
+        ours.push(Box::new(|| look_up.of_points(black_box(points), &mut out.borrow_mut())));
+        ours.push(Box::new(|| look_up.of_receivers(black_box(&receivers), &mut out.borrow_mut())));
+    }
+    let mut ways: Vec<&mut dyn FnMut()> = vec![&mut listed, &mut transform];
+    ways.extend(ours.iter_mut().map(|way| &mut **way as &mut dyn FnMut()));
+    let taken = medians(settings.rounds(), processor_seconds, &mut ways);
+
+    let each = |seconds: f64| seconds * 1e9 / points.len() as f64;
+    let (listing, closer) = (taken[0], [taken[2], taken[3]]);
+    let row = |what: String, ours: f64, peer: String, theirs: f64, goal| Row {
+        group: "look-ups",
+        what: format!("{what} at {side}²"),
+        unit: "ns",
+        ours: each(ours),
+        peer,
+        theirs: each(theirs),
+        goal,
+    };
+    let mut rows = vec![row("transform alone".into(), taken[1], "listing".into(), listing, Goal::Free)];
+    for (index, look_up) in look_ups.iter().enumerate() {
+        for (from, name) in FROM.into_iter().enumerate() {
+            let ours = taken[2 + 2 * index + from];
+            let what = format!("{} {}{name}", look_up.filter, look_up.storage);
+            let with = |goal| if from == 0 { settings.always(goal) } else { Goal::Free };
+            let (peer, theirs, goal) = match (look_up.filter, look_up.storage) {
+                ("pcf-bias", "raw") if from == 0 => ("listing", listing, settings.always(Goal::Faster(5.0))),
+                ("pcf-bias", "raw") => {
+                    let least = if side == 4096 { 5.0 } else { 8.0 };
+                    ("listing", listing, settings.always(Goal::Faster(least)))
+                }
+                (_, "tiled") => ("raw", taken[2 + 2 * (index - 1) + from], settings.always(Goal::Within(1.15))),
+                ("pcf-plane" | "pcf-cone" | "wang-molnar94", _) => {
+                    ("pcf-bias raw", closer[from], with(Goal::Within(1.5)))
+                }
+                ("woo92", _) => ("pcf-bias raw", closer[from], with(Goal::Within(1.1))),
+                ("auto", _) => ("pcf-bias raw", closer[from], with(Goal::Within(2.0))),
+                ("burley", _) => ("listing", listing, with(Goal::Within(1.5))),
+                _ => ("pcf-bias raw", closer[from], Goal::Free),
+            };
+            rows.push(row(what, ours, peer.into(), theirs, goal));
+        }
+    }
+    rows
+}

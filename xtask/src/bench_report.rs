@@ -1,0 +1,150 @@
+//! Measures ours beside peers and makes a page of it: builds the program of `umbrage-bench`, runs it, and hands its rows on.
+
+mod counts;
+mod page;
+mod program;
+mod rows;
+
+use anyhow::{Context as _, bail, ensure};
+use page::{Column, Facts};
+use program::{Flags, built, rustc};
+use rows::Report;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const HELP: &str = "\
+Measure beside peers
+
+Usage: cargo xtask bench-report [OPTIONS]
+
+Options:
+      --native        Also compile for this machine's own processor, with fat LTO, and put both side by side
+      --quick         Small workloads, each once: for the assertions, in seconds; no goal is judged
+      --out DIR       Where bench-report.md and bench-report.svg go [default: target/bench-report]
+      --instructions  Instead: count the instructions of the hottest kernels under valgrind, compare them with the
+                      recorded ones, and look for closures that were not inlined
+      --bless         With --instructions: record what was counted
+";
+
+/// What the command line asks for.
+#[derive(Debug, PartialEq, Eq)]
+enum Wanted {
+    /// The report.
+    Report {
+        native: bool,
+        quick: bool,
+        out: Option<PathBuf>,
+    },
+    /// Counts of instructions.
+    Counts {
+        bless: bool,
+    },
+    Help,
+}
+
+impl Wanted {
+    fn parse(args: &[OsString]) -> anyhow::Result<Self> {
+        let (mut native, mut quick, mut out, mut counts, mut bless) = (false, false, None, false, false);
+        let mut args = args.iter();
+        while let Some(arg) = args.next() {
+            match arg.to_str() {
+                Some("--help" | "-h") => return Ok(Self::Help),
+                Some("--native") => native = true,
+                Some("--quick") => quick = true,
+                Some("--instructions") => counts = true,
+                Some("--bless") => bless = true,
+                Some("--out") => out = Some(args.next().context("--out wants a folder")?.into()),
+                _ => bail!("bench-report has no option {:?}", arg.display().to_string()),
+            }
+        }
+        if counts {
+            ensure!(!native && !quick && out.is_none(), "--instructions goes with --bless alone");
+            return Ok(Self::Counts { bless });
+        }
+        ensure!(!bless, "--bless goes with --instructions alone");
+        Ok(Self::Report { native, quick, out })
+    }
+}
+
+/// Runs the chore. Whether all went well: a goal that is missed is a fact of the report and not a failure.
+pub fn run(root: &Path, args: &[OsString]) -> anyhow::Result<bool> {
+    let (native, quick, out) = match Wanted::parse(args)? {
+        Wanted::Report { native, quick, out } => (native, quick, out),
+        Wanted::Counts { bless } => return counts::run(root, bless),
+        Wanted::Help => {
+            print!("{HELP}");
+            return Ok(true);
+        }
+    };
+    let small: &[&str] = if quick { &["--quick"] } else { &[] };
+    let mut columns = vec![measured(root, Flags::Default, small)?];
+    if native {
+        columns.push(measured(root, Flags::Native, &[small, &["--native"]].concat())?);
+    }
+    let facts = Facts { processor: processor(), rustc: rustc()?, quick };
+    let folder = out.unwrap_or_else(|| root.join("target/bench-report"));
+    std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
+    for (name, text) in
+        [("bench-report.md", page::markdown(&facts, &columns)), ("bench-report.svg", page::svg(&facts, &columns))]
+    {
+        let file = folder.join(name);
+        std::fs::write(&file, text).with_context(|| file.display().to_string())?;
+        println!("{}", file.display());
+    }
+    Ok(true)
+}
+
+fn measured(root: &Path, flags: Flags, args: &[&str]) -> anyhow::Result<Column> {
+    let program = built(root, flags)?;
+    eprintln!("Measuring, which takes minutes; leave the machine alone.");
+    let output = Command::new(&program).args(args).stderr(std::process::Stdio::inherit()).output();
+    let output = output.with_context(|| program.display().to_string())?;
+    ensure!(output.status.success(), "{} failed", program.display());
+    let flags = match flags {
+        Flags::Default => "default flags",
+        Flags::Native => "target-cpu=native, fat LTO",
+    };
+    Ok(Column { flags, report: Report::parse(&String::from_utf8(output.stdout)?)? })
+}
+
+/// The model of the processor, where the system knows it.
+fn processor() -> String {
+    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let value = |name: &str| {
+        let line = text.lines().find(|line| line.starts_with(name))?;
+        line.split_once(':').map(|(_, value)| value.trim().to_string())
+    };
+    let Some(name) = value("model name") else { return "unknown".into() };
+    match (value("cpu family"), value("model")) {
+        (Some(family), Some(model)) => format!("{name} (family {family}, model {model})"),
+        _ => name,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(args: &[&str]) -> anyhow::Result<Wanted> {
+        Wanted::parse(&args.iter().map(OsString::from).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn options_are_known_and_stand_in_the_help() {
+        let all = of(&["--native", "--quick", "--out", "there"]).unwrap();
+        assert_eq!(all, Wanted::Report { native: true, quick: true, out: Some("there".into()) });
+        assert_eq!(of(&["--instructions", "--bless"]).unwrap(), Wanted::Counts { bless: true });
+        assert_eq!(of(&["--quick", "-h"]).unwrap(), Wanted::Help);
+        for option in ["--native", "--quick", "--out", "--instructions", "--bless"] {
+            assert!(HELP.contains(&format!("      {option} ")), "{option}");
+        }
+    }
+
+    #[test]
+    fn what_does_not_go_together_is_refused() {
+        for args in [&["--instructions", "--quick"][..], &["--bless"], &["--out"], &["now"]] {
+            assert!(of(args).is_err(), "{args:?}");
+        }
+    }
+}
