@@ -112,7 +112,7 @@ impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
         let (sampling, origin) = (self.view.sampling(), (tile * BIN).as_ivec2());
         let nearest = self.view.key(self.view.near()) as f32;
         let mut depths = Box::new([f32::INFINITY; CELLS]);
-        self.view.decoding(
+        self.view.decode().in_loops(
             #[inline(always)]
             |decode| {
                 let rows = cells.chunks_exact(BIN as usize).zip(depths.chunks_exact_mut(BIN as usize));

@@ -68,6 +68,17 @@ pub struct Decode {
 }
 
 impl Decode {
+    /// Calls `work` with the same. It is compiled apart for each of the two kinds of axial depth: loops over texels in it do not branch on
+    /// the kind there, and become vector instructions.
+    #[inline(always)]
+    pub fn in_loops<T>(&self, work: impl FnOnce(&Self) -> T) -> T {
+        match (self.kind, self.perspective) {
+            (Kind::Axial, true) => work(&Self { kind: Kind::Axial, perspective: true, ..*self }),
+            (Kind::Axial, false) => work(&Self { kind: Kind::Axial, perspective: false, ..*self }),
+            _ => work(self),
+        }
+    }
+
     /// The stored depth of a key at a texel position. A perspective plane behind its own horizon is at +∞.
     ///
     /// `+∞` keys (nothing there) stay `+∞`.
@@ -183,6 +194,23 @@ impl DepthPlane {
     #[inline(always)]
     pub fn at(&self, texel: DVec2) -> f32 {
         self.decode.depth(self.key.at(texel) as f32, texel)
+    }
+
+    /// [`DepthPlane::at`] of sixteen positions, given as all x and all y.
+    #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "one index names a lane in several arrays")]
+    pub fn at_all(&self, [x, y]: &[[f64; 16]; 2]) -> [f32; 16] {
+        let mut depths = [0.0; 16];
+        self.decode.in_loops(
+            #[inline(always)]
+            |decode| {
+                for i in 0..16 {
+                    let at = DVec2::new(x[i], y[i]);
+                    depths[i] = decode.depth(self.key.at(at) as f32, at);
+                }
+            },
+        );
+        depths
     }
 
     /// Depths along a row, a texel apart from `from` on, by forward differences: one evaluation, then an addition each (Wang & Molnar 1994;

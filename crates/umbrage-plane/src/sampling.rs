@@ -34,6 +34,26 @@ impl Sampling {
     pub fn position(self, texel: IVec2) -> DVec2 {
         texel.as_dvec2() + self.offset_256(texel).as_dvec2() * (1.0 / 256.0)
     }
+
+    /// [`Sampling::position`] of sixteen texels, by their columns and rows: all x, all y.
+    #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "one index names a lane in several arrays")]
+    pub fn positions(self, columns: &[i32; 16], rows: &[i32; 16]) -> [[f64; 16]; 2] {
+        let (mut x, mut y) = ([0.0; 16], [0.0; 16]);
+        match self {
+            Self::Centre => {
+                for i in 0..16 {
+                    (x[i], y[i]) = (f64::from(columns[i]) + 0.5, f64::from(rows[i]) + 0.5);
+                }
+            }
+            Self::Jittered { .. } => {
+                for i in 0..16 {
+                    (x[i], y[i]) = self.position(IVec2::new(columns[i], rows[i])).into();
+                }
+            }
+        }
+        [x, y]
+    }
 }
 
 /// A 32-bit mixing function with full avalanche (the `lowbias32` constants found by Chris Wellons' search).

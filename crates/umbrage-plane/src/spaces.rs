@@ -197,18 +197,6 @@ impl View {
         }
     }
 
-    /// Calls `work` with [`View::decode`]. It is compiled apart for each of the two kinds of axial depth: loops over texels in it do not
-    /// branch on the kind there, and become vector instructions.
-    #[inline(always)]
-    pub fn decoding<T>(&self, work: impl FnOnce(&Decode) -> T) -> T {
-        let decode = self.decode();
-        match (decode.kind, decode.perspective) {
-            (Kind::Axial, true) => work(&Decode { kind: Kind::Axial, perspective: true, ..decode }),
-            (Kind::Axial, false) => work(&Decode { kind: Kind::Axial, perspective: false, ..decode }),
-            _ => work(&decode),
-        }
-    }
-
     /// The stored depth of a point of eye space, rounded once.
     #[inline(always)]
     pub fn depth(&self, eye: DVec3) -> f32 {

@@ -5,7 +5,7 @@ use glam::{IVec2, Vec2};
 use std::fmt;
 use std::sync::Arc;
 use umbrage_depth::{DepthMap, Translucent};
-use umbrage_plane::{Footprint, Receiver, TexelRect, Verdict, View};
+use umbrage_plane::{DepthRange, Footprint, Receiver, TexelRect, Verdict, View};
 use umbrage_sample::{Key, Pattern, Taps};
 
 /// Combines what a map says around a receiver into a fraction in shadow.
@@ -149,7 +149,12 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
             return None;
         }
         let rect = TexelRect::around(region.centre, region.half);
-        let (stored, compared) = (self.map.range(rect), depth.bounds(view, self.receiver, rect));
+        let stored = self.map.range(rect);
+        if stored == DepthRange::UNKNOWN {
+            // Then nothing is settled, whatever is compared.
+            return None;
+        }
+        let compared = depth.bounds(view, self.receiver, rect);
         let dark = if compared.max <= stored.min {
             false
         } else if compared.min > stored.max {

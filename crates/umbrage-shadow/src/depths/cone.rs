@@ -1,6 +1,6 @@
 use crate::ReceiverDepth;
 use fearless_simd::{Simd, f32x16, prelude::*};
-use glam::{DVec2, IVec2};
+use glam::DVec2;
 use umbrage_plane::{Bias, DepthRange, Receiver, TexelRect, View, floor_texel};
 use umbrage_sample::Taps;
 
@@ -55,14 +55,23 @@ impl ReceiverDepth for BiasCone {
     fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
         let tip = receiver.texel;
         let world = receiver.texel_world.as_dvec2();
-        let (column, row) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
+        let [x, y] = match self.radius {
+            Radius::TexelCentre => {
+                let (columns, rows) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
+                view.sampling().positions(&columns.into(), &rows.into())
+            }
+            Radius::Nominal => {
+                let places: [[f32; 16]; 2] = [taps.x.into(), taps.y.into()];
+                let mut wide = [[0.0; 16]; 2];
+                for i in 0..16 {
+                    (wide[0][i], wide[1][i]) = (f64::from(places[0][i]), f64::from(places[1][i]));
+                }
+                wide
+            }
+        };
         let mut depths = [0.0; 16];
         for i in 0..16 {
-            let at = match self.radius {
-                Radius::TexelCentre => view.sampling().position(IVec2::new(column[i], row[i])),
-                Radius::Nominal => taps.tap(i).at.as_dvec2(),
-            };
-            let distance = ((at - tip) * world).length() as f32;
+            let distance = ((DVec2::new(x[i], y[i]) - tip) * world).length() as f32;
             depths[i] = receiver.nearer(view, Bias::World(self.bias(distance)));
         }
         f32x16::load_array(simd, depths)

@@ -1,6 +1,5 @@
 use crate::ReceiverDepth;
 use fearless_simd::{Simd, f32x16, prelude::*};
-use glam::IVec2;
 use umbrage_plane::{Bias, DepthRange, Kind, Receiver, TexelRect, View, floor_texel};
 use umbrage_sample::Taps;
 
@@ -51,12 +50,11 @@ impl ReceiverDepth for OnPlane {
     fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
         let plane = receiver.plane(view);
         let shift = self.shift(view, receiver);
-        let (column, row) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
+        let (columns, rows) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
         let (low, high) = (receiver.depth - self.reach, receiver.depth + self.reach);
-        let mut depths = [0.0; 16];
-        for i in 0..16 {
-            let depth = plane.at(view.sampling().position(IVec2::new(column[i], row[i])));
-            depths[i] = depth.max(low).min(high) + shift;
+        let mut depths = plane.at_all(&view.sampling().positions(&columns.into(), &rows.into()));
+        for depth in &mut depths {
+            *depth = depth.max(low).min(high) + shift;
         }
         f32x16::load_array(simd, depths)
     }

@@ -1,7 +1,7 @@
 //! A receiver asked of what knows facets: votes of samples, and the edge between those that disagree.
 
 use super::parameters::DualPlane;
-use super::voters::{LANES, Voters};
+use super::voters::{LANES, Said, Voters};
 use crate::query::answer;
 use crate::{Crossing, Probe, Query};
 use arrayvec::ArrayVec;
@@ -57,9 +57,9 @@ pub(super) struct Grid<'a, 'b, F: ?Sized, const N: usize, const CHUNKS: usize> {
     rect: TexelRect,
     /// Places of a row.
     columns: usize,
-    /// What the samples say, each once, and how many there are.
+    /// What the samples say, each once, and which part of the rectangle each stands for.
     voters: ArrayVec<Voters, CHUNKS>,
-    count: usize,
+    parts: ArrayVec<TexelRect, N>,
     /// For each place, row by row, whose it is.
     of: [u8; N],
     /// Crossings that were looked for before, by their place and whether they lead downward.
@@ -126,7 +126,7 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
             let mut grid = Grid::<F, { AT_HAND * AT_HAND }, { AT_HAND * AT_HAND / LANES }>::empty(self, rect);
             let agreed = grid.fill();
             if inside && let Some(dark) = agreed {
-                return (f32::from(u8::from(dark)), grid.count as u32);
+                return (f32::from(u8::from(dark)), grid.parts.len() as u32);
             }
             return (grid.fraction(inside), looked);
         }
@@ -143,7 +143,7 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
     #[inline(always)]
     fn of_one_plane(&self, rect: TexelRect, reach: DVec2) -> Option<bool> {
         let sample = self.map.one_facet(rect)?;
-        let behind = Voters::new(self, |_| sample).behind(0);
+        let behind = Voters::of(self, &[sample]).behind(0);
         // Wherever the samples of these places were taken, and the region.
         let side = 1.0 / f64::from(self.map.fine());
         let low = (rect.min.as_dvec2() * side - 1.0).min(self.part.0 - reach);
@@ -158,15 +158,21 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
     /// The answer of all samples of a rectangle for all places of the region, where it is one; and how many were looked at.
     #[inline(never)]
     fn agreed(&self, rect: TexelRect) -> (Option<bool>, u32) {
-        let (mut agreed, mut looked) = (None, 0);
+        let mut samples = ArrayVec::<FacetSample, LANES>::new_const();
+        let (mut said, mut looked) = (Said::default(), 0);
         self.map.each_sample(rect, &mut |_, sample| {
+            samples.push(*sample);
             looked += 1;
-            let said = Voters::new(self, |_| *sample).settled(0);
-            let goes_on = said.is_some() && (looked == 1 || said == agreed);
-            agreed = if goes_on { said } else { None };
-            goes_on
+            if samples.is_full() {
+                said.add(&Voters::of(self, &samples));
+                samples.clear();
+            }
+            said.can_agree()
         });
-        (agreed, looked)
+        if !samples.is_empty() {
+            said.add(&Voters::of(self, &samples));
+        }
+        (said.agreed(), looked)
     }
 
     /// The answer of a place that the view's rules settle.
@@ -233,8 +239,7 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
         self.share(inside, |at| {
             let corner = (at * f64::from(self.map.fine()) - 0.5).floor().as_ivec2();
             let mut grid = Grid::<F, 4, 1>::empty(self, TexelRect::new(corner, corner + 2));
-            grid.fill();
-            grid.dark(at)
+            grid.filled().dark(at)
         })
     }
 }
@@ -249,50 +254,57 @@ impl<'a, 'b, F: FacetSource + ?Sized, const N: usize, const CHUNKS: usize> Grid<
             rect,
             columns,
             voters: ArrayVec::new_const(),
-            count: 0,
+            parts: ArrayVec::new_const(),
             of: [0; N],
             crossed: ArrayVec::new_const(),
         }
     }
 
-    /// Takes the samples of its rectangle, and returns their answer for all places of the region, where it is one.
+    /// Takes the samples of its rectangle, and returns their answer for all places of the region, where it is one. Whose each place is has to
+    /// be [noted](Self::place) before one of them is judged.
     #[inline(always)]
-    pub fn fill(&mut self) -> Option<bool> {
-        let (asked, rect, columns) = (self.asked, self.rect, self.columns);
+    fn fill(&mut self) -> Option<bool> {
         let mut samples = ArrayVec::<FacetSample, N>::new_const();
-        asked.map.each_sample(rect, &mut |part, sample| {
-            let (from, to) = ((part.min - rect.min).as_usizevec2(), (part.max - rect.min).as_usizevec2());
-            if to.x - from.x == 1 && to.y - from.y == 1 {
-                self.of[from.y * columns + from.x] = samples.len() as u8;
-            } else {
-                for row in from.y..to.y {
-                    self.of[row * columns + from.x..row * columns + to.x].fill(samples.len() as u8);
-                }
-            }
+        let parts = &mut self.parts;
+        self.asked.map.each_sample(self.rect, &mut |part, sample| {
+            parts.push(part);
             samples.push(*sample);
             true
         });
-        self.count = samples.len();
-        let mut said = [false; 3];
+        let mut said = Said::default();
         for samples in samples.chunks(LANES) {
-            let voters = Voters::new(
-                asked,
-                #[inline(always)]
-                |i| samples[i.min(samples.len() - 1)],
-            );
-            for lane in 0..LANES {
-                said[voters.settled(lane).map_or(2, usize::from)] = true;
-            }
+            let voters = Voters::of(self.asked, samples);
+            said.add(&voters);
             self.voters.push(voters);
         }
-        match said {
-            [lit, dark, false] if lit != dark => Some(dark),
-            _ => None,
+        said.agreed()
+    }
+
+    /// Notes for each place whose it is.
+    #[inline(always)]
+    fn place(&mut self) {
+        let (rect, columns) = (self.rect, self.columns);
+        for (voter, part) in self.parts.iter().enumerate() {
+            let (from, to) = ((part.min - rect.min).as_usizevec2(), (part.max - rect.min).as_usizevec2());
+            for row in from.y..to.y {
+                for of in &mut self.of[row * columns + from.x..row * columns + to.x] {
+                    *of = voter as u8;
+                }
+            }
         }
+    }
+
+    /// With its samples, and each place noted.
+    #[inline(always)]
+    pub fn filled(&mut self) -> &mut Self {
+        self.fill();
+        self.place();
+        self
     }
 
     #[inline(never)]
     fn fraction(&mut self, inside: bool) -> f32 {
+        self.place();
         self.asked.share(
             inside,
             #[inline(always)]

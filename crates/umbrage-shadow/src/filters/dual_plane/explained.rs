@@ -26,7 +26,7 @@ pub(super) fn explain<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, probe: &mut
 fn judged<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, at: DVec2) -> PlaceJudged {
     let corner = (at * f64::from(asked.map.fine()) - 0.5).floor().as_ivec2();
     let mut grid = Grid::<F, 4, 1>::empty(asked, TexelRect::new(corner, corner + 2));
-    grid.fill();
+    grid.filled();
     let votes = [0, 1, 2, 3].map(|k| {
         let sample = asked.map.sample(corner + IVec2::new(k & 1, k >> 1));
         vote(asked, &sample, at)
@@ -39,7 +39,7 @@ fn judged<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, at: DVec2) -> PlaceJudg
 }
 
 fn vote<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, sample: &FacetSample, at: DVec2) -> Vote {
-    let (voters, nothing) = (Voters::new(asked, |_| *sample), sample.plane.c == f64::INFINITY);
+    let (voters, nothing) = (Voters::of(asked, &[*sample]), sample.plane.c == f64::INFINITY);
     let (there, passed) = voters.there(0);
     let world = |key: f64| if nothing { f64::NEG_INFINITY } else { key / asked.per_world };
     Vote {

@@ -27,14 +27,15 @@ pub(super) struct Voters {
 }
 
 impl Voters {
-    /// Each sample as if it were alone. Nothing, a plane infinitely far, calls everything lit.
+    /// Each of one to [`LANES`] samples as if it were alone; the last fills what lanes are left. Nothing, a plane infinitely far, calls
+    /// everything lit.
     #[inline(always)]
     #[expect(clippy::needless_range_loop, reason = "one index names a lane in several arrays")]
-    pub fn new<F: ?Sized>(asked: &Asked<'_, F>, sample: impl Fn(usize) -> FacetSample) -> Self {
+    pub fn of<F: ?Sized>(asked: &Asked<'_, F>, samples: &[FacetSample]) -> Self {
         let (mut c, mut dx, mut dy) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
         let (mut x, mut y, mut side) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
         for i in 0..LANES {
-            let sample = sample(i);
+            let sample = &samples[i.min(samples.len() - 1)];
             (c[i], dx[i], dy[i]) = (sample.plane.c, sample.plane.dx, sample.plane.dy);
             (x[i], y[i], side[i]) = (sample.at.x, sample.at.y, sample.side);
         }
@@ -60,13 +61,6 @@ impl Voters {
         Self { behind: [c, dx, dy], there, passed, all_dark, all_lit }
     }
 
-    /// What a sample says of the whole region, where that is one thing.
-    #[inline(always)]
-    pub fn settled(&self, lane: usize) -> Option<bool> {
-        let (dark, lit) = (self.all_dark[lane], self.all_lit[lane]);
-        (dark != lit).then_some(dark)
-    }
-
     /// Whether a sample calls a place of the region dark.
     #[inline(always)]
     pub fn dark(&self, lane: usize, at: DVec2) -> bool {
@@ -85,5 +79,38 @@ impl Voters {
     #[inline(always)]
     pub fn there(&self, lane: usize) -> (f64, f64) {
         (self.there[lane], self.passed[lane])
+    }
+}
+
+/// What samples say of a whole region.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Said {
+    lit: bool,
+    dark: bool,
+    /// One of them says neither of all of it.
+    both: bool,
+}
+
+impl Said {
+    /// Takes what some of them say.
+    #[inline(always)]
+    pub fn add(&mut self, voters: &Voters) {
+        for (dark, lit) in voters.all_dark.iter().zip(&voters.all_lit) {
+            self.dark |= *dark & !lit;
+            self.lit |= *lit & !dark;
+            self.both |= dark == lit;
+        }
+    }
+
+    /// Whether no two disagree so far.
+    #[inline(always)]
+    pub fn can_agree(self) -> bool {
+        !self.both & !(self.dark & self.lit)
+    }
+
+    /// The answer of all, where there is one.
+    #[inline(always)]
+    pub fn agreed(self) -> Option<bool> {
+        (self.can_agree() && (self.dark || self.lit)).then_some(self.dark)
     }
 }
