@@ -198,7 +198,6 @@ impl DepthPlane {
 
     /// [`DepthPlane::at`] of sixteen positions, given as all x and all y.
     #[inline(always)]
-    #[expect(clippy::needless_range_loop, reason = "one index names a lane in several arrays")]
     pub fn at_all(&self, [x, y]: &[[f64; 16]; 2]) -> [f32; 16] {
         let mut depths = [0.0; 16];
         self.decode.in_loops(

@@ -37,7 +37,6 @@ impl Sampling {
 
     /// [`Sampling::position`] of sixteen texels, by their columns and rows: all x, all y.
     #[inline(always)]
-    #[expect(clippy::needless_range_loop, reason = "one index names a lane in several arrays")]
     pub fn positions(self, columns: &[i32; 16], rows: &[i32; 16]) -> [[f64; 16]; 2] {
         let (mut x, mut y) = ([0.0; 16], [0.0; 16]);
         match self {

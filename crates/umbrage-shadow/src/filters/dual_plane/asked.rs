@@ -1,7 +1,7 @@
 //! A receiver asked of what knows facets: votes of samples, and the edge between those that disagree.
 
 use super::parameters::DualPlane;
-use super::voters::{LANES, Said, Voters};
+use super::voters::{Compared, LANES, Said, Voters};
 use crate::query::answer;
 use crate::{Crossing, Probe, Query};
 use arrayvec::ArrayVec;
@@ -14,24 +14,14 @@ use umbrage_plane::{Affine, Cells, TexelRect, View};
 pub(super) struct Asked<'a, F: ?Sized> {
     pub map: &'a F,
     pub view: &'a View,
-    /// The receiver's tangent plane, and how fast its key changes, over both axes together.
-    pub plane: Affine,
-    pub steep: f64,
+    /// What every sample is compared with.
+    pub compared: Compared,
     texel: DVec2,
     /// The middle of the region's parallelogram, its half-axes, texels, and what of it is the surface.
     middle: DVec2,
     axes: [DVec2; 2],
     cells: Cells,
-    /// The middle and the half-axes of the part that holds the surface.
-    pub part: (DVec2, [DVec2; 2]),
     across: u32,
-    /// What a sample of one texel's width must be passed by for its width, as a key, and for each unit of slope.
-    pub width: f64,
-    pub slope: f64,
-    /// The least width of a sample, texels.
-    pub least: f64,
-    /// Roundings of what is compared.
-    pub rounding: f64,
     /// Change of the key per world unit along the axis of view, at the receiver.
     pub per_world: f64,
 }
@@ -88,26 +78,28 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
         Self {
             map,
             view,
-            plane,
-            steep: plane.dx.abs() + plane.dy.abs(),
+            compared: Compared {
+                plane,
+                steep: plane.dx.abs() + plane.dy.abs(),
+                part,
+                width: filter.width_term * (texel.x * texel.y).sqrt() * per_world,
+                slope: filter.slope_term,
+                least: filter.footprint_term * wide,
+                rounding: plane.at(receiver.texel).abs() * 1e-14,
+            },
             texel: receiver.texel,
             middle,
             axes,
             cells,
-            part,
             across: if wide == 0.0 { 1 } else { filter.across.max(1) },
-            width: filter.width_term * (texel.x * texel.y).sqrt() * per_world,
             per_world,
-            slope: filter.slope_term,
-            least: filter.footprint_term * wide,
-            rounding: plane.at(receiver.texel).abs() * 1e-14,
         }
     }
 
     /// The fraction in shadow, and how many samples were looked at.
     #[inline(always)]
     pub fn fraction(&self) -> (f32, u32) {
-        let (centre, axes) = self.part;
+        let (centre, axes) = self.compared.part;
         let reach = axes[0].abs() + axes[1].abs();
         let fine = f64::from(self.map.fine());
         let corner = |at: DVec2| (at * fine - 0.5).floor();
@@ -143,11 +135,11 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
     #[inline(always)]
     fn of_one_plane(&self, rect: TexelRect, reach: DVec2) -> Option<bool> {
         let sample = self.map.one_facet(rect)?;
-        let behind = Voters::of(self, &[sample]).behind(0);
+        let behind = Voters::of(&self.compared, &[sample]).behind(0);
         // Wherever the samples of these places were taken, and the region.
         let side = 1.0 / f64::from(self.map.fine());
-        let low = (rect.min.as_dvec2() * side - 1.0).min(self.part.0 - reach);
-        let high = (rect.max.as_dvec2() * side + 1.0).max(self.part.0 + reach);
+        let low = (rect.min.as_dvec2() * side - 1.0).min(self.compared.part.0 - reach);
+        let high = (rect.max.as_dvec2() * side + 1.0).max(self.compared.part.0 + reach);
         let middle = behind.at(0.5 * (low + high));
         let half = 0.5 * (high - low);
         let spread = (behind.dx.abs() * half.x + behind.dy.abs() * half.y) * (1.0 + 1e-9);
@@ -164,13 +156,13 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
             samples.push(*sample);
             looked += 1;
             if samples.is_full() {
-                said.add(&Voters::of(self, &samples));
+                said.add(&Voters::of(&self.compared, &samples));
                 samples.clear();
             }
             said.can_agree()
         });
         if !samples.is_empty() {
-            said.add(&Voters::of(self, &samples));
+            said.add(&Voters::of(&self.compared, &samples));
         }
         (said.agreed(), looked)
     }
@@ -193,7 +185,7 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
             return f32::from(u8::from(answer(self.texel)));
         }
         // Lines go across the edge rather than along it.
-        let (centre, [x, y]) = self.part;
+        let (centre, [x, y]) = self.compared.part;
         let [a, b] = [answer(centre + (-x - y)), answer(centre + (x - y))];
         let [c, d] = [answer(centre + (y - x)), answer(centre + (x + y))];
         let along_x = !(a == b && c == d && a != c);
@@ -273,7 +265,7 @@ impl<'a, 'b, F: FacetSource + ?Sized, const N: usize, const CHUNKS: usize> Grid<
         });
         let mut said = Said::default();
         for samples in samples.chunks(LANES) {
-            let voters = Voters::of(self.asked, samples);
+            let voters = Voters::of(&self.asked.compared, samples);
             said.add(&voters);
             self.voters.push(voters);
         }

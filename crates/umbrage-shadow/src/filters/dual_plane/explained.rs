@@ -39,7 +39,7 @@ fn judged<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, at: DVec2) -> PlaceJudg
 }
 
 fn vote<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, sample: &FacetSample, at: DVec2) -> Vote {
-    let (voters, nothing) = (Voters::of(asked, &[*sample]), sample.plane.c == f64::INFINITY);
+    let (voters, nothing) = (Voters::of(&asked.compared, &[*sample]), sample.plane.c == f64::INFINITY);
     let (there, passed) = voters.there(0);
     let world = |key: f64| if nothing { f64::NEG_INFINITY } else { key / asked.per_world };
     Vote {

@@ -1,6 +1,5 @@
 //! What samples say of a receiver, several at a time.
 
-use super::asked::Asked;
 use glam::DVec2;
 use umbrage_depth::FacetSample;
 use umbrage_plane::Affine;
@@ -10,6 +9,22 @@ pub(super) const LANES: usize = 4;
 
 /// A number of each.
 type Lanes = [f64; LANES];
+
+/// What of a receiver every sample is compared with.
+pub(super) struct Compared {
+    /// Its tangent plane, and how fast that plane's key changes, over both axes together.
+    pub plane: Affine,
+    pub steep: f64,
+    /// The middle and the half-axes, texels, of the part of the region that holds the surface.
+    pub part: (DVec2, [DVec2; 2]),
+    /// What a sample of one texel's width must be passed by for its width, as a key, and for each unit of slope.
+    pub width: f64,
+    pub slope: f64,
+    /// The least width of a sample, texels.
+    pub least: f64,
+    /// Roundings of what is compared.
+    pub rounding: f64,
+}
 
 /// What [`LANES`] samples say before a place is named: arrays in place of numbers, of which a compiler makes vector instructions.
 #[derive(Clone, Copy, Debug)]
@@ -30,8 +45,7 @@ impl Voters {
     /// Each of one to [`LANES`] samples as if it were alone; the last fills what lanes are left. Nothing, a plane infinitely far, calls
     /// everything lit.
     #[inline(always)]
-    #[expect(clippy::needless_range_loop, reason = "one index names a lane in several arrays")]
-    pub fn of<F: ?Sized>(asked: &Asked<'_, F>, samples: &[FacetSample]) -> Self {
+    pub fn of(compared: &Compared, samples: &[FacetSample]) -> Self {
         let (mut c, mut dx, mut dy) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
         let (mut x, mut y, mut side) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
         for i in 0..LANES {
@@ -42,21 +56,22 @@ impl Voters {
         let (mut there, mut passed) = ([0.0; LANES], [0.0; LANES]);
         let (mut all_dark, mut all_lit) = ([false; LANES], [false; LANES]);
         for i in 0..LANES {
-            let gentle = asked.steep.min(dx[i].abs() + dy[i].abs());
+            let gentle = compared.steep.min(dx[i].abs() + dy[i].abs());
             // Planes of refined maps are three floats about the middle of a tile.
-            let rounding = asked.rounding + 1e-6 * gentle.min(asked.width);
-            passed[i] = rounding + (asked.width + asked.slope * gentle) * side[i].max(asked.least);
-            (c[i], dx[i], dy[i]) = (asked.plane.c - c[i] - passed[i], asked.plane.dx - dx[i], asked.plane.dy - dy[i]);
+            let rounding = compared.rounding + 1e-6 * gentle.min(compared.width);
+            passed[i] = rounding + (compared.width + compared.slope * gentle) * side[i].max(compared.least);
+            (c[i], dx[i], dy[i]) =
+                (compared.plane.c - c[i] - passed[i], compared.plane.dx - dx[i], compared.plane.dy - dy[i]);
             there[i] = Affine { c: c[i], dx: dx[i], dy: dy[i] }.at(DVec2::new(x[i], y[i]));
         }
-        let (centre, axes) = asked.part;
+        let (centre, axes) = compared.part;
         for i in 0..LANES {
             let middle = Affine { c: c[i], dx: dx[i], dy: dy[i] }.at(centre);
             let along = |axis: DVec2| (dx[i] * axis.x + dy[i] * axis.y).abs();
             // A little more than the region, so that no rounding decides.
             let spread = (along(axes[0]) + along(axes[1])) * (1.0 + 1e-9);
-            all_dark[i] = (there[i] > 0.0) & (middle - spread > 0.0);
-            all_lit[i] = (there[i] <= 0.0) | (middle + spread <= 0.0);
+            all_dark[i] = there[i] > 0.0 && middle - spread > 0.0;
+            all_lit[i] = there[i] <= 0.0 || middle + spread <= 0.0;
         }
         Self { behind: [c, dx, dy], there, passed, all_dark, all_lit }
     }
@@ -96,8 +111,8 @@ impl Said {
     #[inline(always)]
     pub fn add(&mut self, voters: &Voters) {
         for (dark, lit) in voters.all_dark.iter().zip(&voters.all_lit) {
-            self.dark |= *dark & !lit;
-            self.lit |= *lit & !dark;
+            self.dark |= *dark && !lit;
+            self.lit |= *lit && !dark;
             self.both |= dark == lit;
         }
     }
@@ -105,7 +120,7 @@ impl Said {
     /// Whether no two disagree so far.
     #[inline(always)]
     pub fn can_agree(self) -> bool {
-        !self.both & !(self.dark & self.lit)
+        !(self.both || self.dark && self.lit)
     }
 
     /// The answer of all, where there is one.
