@@ -97,8 +97,10 @@ echo '17;cluster'
     if answers(&["sinfo", "--noheader"]) {
         std::fs::remove_dir_all(folder.join("it's drawn")).expect("a folder");
         shell(&folder, "sh job.sh");
-        let (start, last) = (Instant::now(), folder.join("it's drawn/three-lights.red.png"));
-        while !last.is_file() && start.elapsed() < Duration::from_secs(120) {
+        let (start, drawn) = (Instant::now(), folder.join("it's drawn"));
+        while start.elapsed() < Duration::from_secs(120)
+            && !files(&folder.join("whole")).iter().all(|name| drawn.join(name).is_file())
+        {
             std::thread::sleep(Duration::from_millis(200));
         }
         check(&folder);
