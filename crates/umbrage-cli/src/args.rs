@@ -50,14 +50,18 @@ pub enum Command {
   umbrage shadow gallery:three-lights --size 96x72 --shard 1/2 -o shared")]
     Shadow(ShadowArgs),
     /// Give pictures that were drawn by shards their names, once all of them are there
-    #[command(after_help = "Examples:
+    #[command(
+        after_help = "The folder .parts in DIR is where shards leave them. It is not needed once they are gathered.
+
+Examples:
   umbrage render gallery:table gallery:contact-box --size 96x72 --shard 1/1 -o drawn/
-  umbrage gather drawn")]
+  umbrage gather drawn"
+    )]
     Gather(GatherArgs),
     /// Print a job for a scheduler that draws a command line's pictures in N shards and then gathers them
     #[command(
-        after_help = "An OpenJD template runs its shards in its parameter Folder, which is the template's own folder unless given: relative paths begin there.
-A Slurm script is run by sh, not by sbatch: it submits the shards as one array, and what gathers them to run once all have succeeded.
+        after_help = "Relative paths of an OpenJD template begin in its parameter Folder, which is the template's own folder unless given. A Slurm
+script is run by sh, not by sbatch: it submits the shards as an array, and a job that gathers once all of them have succeeded.
 
 Examples:
   umbrage jobs openjd 4 -- umbrage render fixtures/scenes/bend.glb --frames 1..48 -o bend/ > job.yaml

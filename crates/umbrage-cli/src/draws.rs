@@ -63,7 +63,7 @@ pub fn save(path: &Path, bytes: Result<Vec<u8>, Fault>) -> Result<(), IoError> {
     write_bytes(path, &bytes)
 }
 
-/// Says what was drawn of a take, and returns the same for programs.
+/// Prints a line for each light of a take that was drawn, and returns the same for programs.
 pub fn noted(
     drawn: anyhow::Result<Vec<Line>>,
     take: &Take,

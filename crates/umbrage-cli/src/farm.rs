@@ -1,4 +1,4 @@
-//! `umbrage jobs`: schedulers have their own ways to share out work, to try again and to wait; they are given what they need for it.
+//! `umbrage jobs`: schedulers have their own ways to start work, to try again and to wait; here they are given work in their own form.
 
 use crate::args::{Cli, Command, JobsArgs, Scheduler};
 use crate::render;

@@ -1,5 +1,5 @@
-//! A shard: its share of the pictures of a command line, under names of what they are drawn from, so that a shard that was stopped
-//! goes on where it was, and no picture of another scene or with other options is taken for one of these.
+//! A shard: its share of the pictures of a command line. Each is written under a name made of all that it is drawn from, so that a shard
+//! that was stopped goes on where it was, and no picture of another scene or of other options is taken for one of these.
 
 use crate::args::{Cli, Command, TakesArgs};
 use crate::digest::{self, Digest};
@@ -93,7 +93,7 @@ fn jobs(
     let options = Value::Object(command.options()?).to_string();
     let start =
         || Digest::new().with(env!("CARGO_PKG_VERSION").as_bytes()).with(name(cli).as_bytes()).with(options.as_bytes());
-    // What is said of a scene is said when it is drawn.
+    // Notes about a scene are for the shard that draws it.
     let (input, out, err) = (&mut *shell.input, &mut *shell.out, &mut *shell.err);
     let mut silent = Shell { input, out, err, quiet: true, verbose: false, is_terminal: false };
     let (mut jobs, mut known) = (Vec::new(), BTreeMap::new());

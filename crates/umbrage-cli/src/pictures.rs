@@ -1,4 +1,4 @@
-//! Drawing every picture that a command line asks for.
+//! Drawing every picture of a command line.
 
 use crate::args::{Cli, TakesArgs};
 use crate::draws::{Draws, noted, of_take, save, twice};
@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use umbrage_io::{Fault, create_folder};
 
-/// Draws what a command line asks for: one take into `output`, a folder if the command `fills_a_folder`; several takes into a folder; or
-/// a shard of them.
+/// Draws the takes of a command line: one into `output`, a folder if the command `fills_a_folder`; several into a folder; or a shard of
+/// them.
 ///
 /// # Errors
 /// The first thing that failed. Pictures that were finished before stay.

@@ -1,4 +1,4 @@
-//! What a command says that it did.
+//! The report of what a command did.
 
 use crate::args::Cli;
 use crate::shell::Shell;
@@ -43,7 +43,7 @@ impl Line {
     }
 }
 
-/// Says what was written: as JSON on stdout where that is wanted, and one line for each light for people.
+/// Reports what was written: as JSON on stdout where that is wanted, and one line for each light for people.
 pub fn report(cli: &Cli, shell: &mut Shell<'_>, files: &[PathBuf], lines: &[Line]) -> anyhow::Result<()> {
     for line in lines {
         line.note(None, shell);
@@ -52,7 +52,7 @@ pub fn report(cli: &Cli, shell: &mut Shell<'_>, files: &[PathBuf], lines: &[Line
     written(cli, shell, files, [("lights", lights)])
 }
 
-/// Prints the files that were written, and what more there is to say of them, as JSON on stdout where that is wanted.
+/// Prints the files that were written, and `more` about them, as JSON on stdout where that is wanted.
 pub fn written<const N: usize>(
     cli: &Cli,
     shell: &mut Shell<'_>,
