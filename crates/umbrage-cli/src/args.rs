@@ -50,13 +50,11 @@ pub enum Command {
   umbrage shadow gallery:three-lights --size 96x72 --shard 1/2 -o shared")]
     Shadow(ShadowArgs),
     /// Give pictures that were drawn by shards their names, once all of them are there
-    #[command(
-        after_help = "The folder .parts in DIR is where shards leave them. It is not needed once they are gathered.
+    #[command(after_help = "The folder .parts in DIR is where shards leave them; it is removed.
 
 Examples:
   umbrage render gallery:table gallery:contact-box --size 96x72 --shard 1/1 -o drawn/
-  umbrage gather drawn"
-    )]
+  umbrage gather drawn")]
     Gather(GatherArgs),
     /// Print a job for a scheduler that draws a command line's pictures in N shards and then gathers them
     #[command(

@@ -35,6 +35,7 @@ pub fn run(cli: &Cli, args: &GatherArgs, shell: &mut Shell<'_>) -> anyhow::Resul
             files.push(path);
         }
     }
+    manifest::remove(&parts)?;
     let there = jobs.len() - files.len();
     shell.note(&format!("{}: {} pictures, {there} of them there already", folder.display(), jobs.len()));
     written(cli, shell, &files, [("there", json!(there))])

@@ -4,7 +4,7 @@ use crate::shell::Usage;
 use anyhow::{Context, anyhow, bail};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
-use umbrage_io::{read_bytes, write_bytes};
+use umbrage_io::{IoError, read_bytes, remove_folder, write_bytes};
 
 /// The folder of the parts, in that of the pictures.
 const FOLDER: &str = ".parts";
@@ -77,6 +77,16 @@ impl Manifest {
         all["jobs"] = self.jobs.iter().map(job).collect();
         all
     }
+}
+
+/// Removes a folder of parts that are gathered.
+///
+/// # Errors
+/// A file that cannot be written or removed.
+pub fn remove(parts: &Path) -> Result<(), IoError> {
+    // Whatever stops this, parts that are gone already are not missing.
+    write_bytes(&path_in(parts), json!({ "jobs": [] }).to_string().as_bytes())?;
+    remove_folder(parts)
 }
 
 /// The names of the pictures in a folder of parts, each with its part's.

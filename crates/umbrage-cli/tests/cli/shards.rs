@@ -163,6 +163,7 @@ fn shards_gathered_are_what_one_machine_draws() {
             }
             assert_eq!(files(Path::new(&shared)), [".parts"], "pictures have no names yet");
             good(&["gather", &shared, "-q"]);
+            assert_eq!(files(Path::new(&shared)).len(), expected.len(), "no parts are left");
             assert!(pictures(Path::new(&shared)) == expected, "{command} in {count} shards");
         }
     }
@@ -205,8 +206,10 @@ fn what_is_missing_is_named_and_what_is_there_is_left_alone() {
     let times =
         || names.each_ref().map(|name| out.join(name).metadata().and_then(|facts| facts.modified()).expect("a time"));
     let before = times();
-    let again = json(&good(&["gather", text(&out), "--json", "-q"]).out);
-    assert_eq!(again["files"], serde_json::json!([]));
+    let gather = || json(&good(&["gather", text(&out), "--json", "-q"]).out);
+    assert_eq!(gather(), serde_json::json!({ "files": [], "there": 0 }), "nothing is left to gather");
+    shard("1/1");
+    assert_eq!(gather(), serde_json::json!({ "files": [], "there": 6 }));
     assert_eq!(times(), before, "finished pictures are not written again");
 }
 
@@ -250,6 +253,11 @@ fn lists_that_are_damaged_are_one_line() {
     assert_eq!(good(&["gather", text(&out)]).err, format!("{}: nothing to gather\n", out.display()));
     std::fs::create_dir(out.join(".parts")).expect("a folder");
     let list = out.join(".parts/manifest.json");
+    // Of a removal that was stopped.
+    std::fs::write(&list, r#"{"jobs": []}"#).expect("a file");
+    good(&["gather", text(&out)]);
+    assert_eq!(files(&out), [""; 0]);
+    std::fs::create_dir(out.join(".parts")).expect("a folder");
     for (text_of_list, expected) in [
         ("", "EOF while parsing"),
         ("{}", "jobs: expected a list"),
