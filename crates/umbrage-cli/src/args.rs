@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::values::{Area, Frames, MOST_PICTURES, Shard, area, frames, samples, seconds, shard, size};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::UVec2;
 use std::path::PathBuf;
@@ -39,13 +40,32 @@ pub enum Command {
     /// Draw the lit picture of a scene
     #[command(after_help = "Examples:
   umbrage render fixtures/scenes/suzi.glb -o suzi.png
-  umbrage render gallery:spot-room --recipe woo92 --map-size 256 -o room.exr")]
+  umbrage render gallery:spot-room --recipe woo92 --map-size 256 -o room.exr
+  umbrage render gallery:table gallery:contact-box --frames 1..2 --size 96x72 -o frames/")]
     Render(RenderArgs),
     /// Draw the fraction in shadow alone, one picture for each light
     #[command(after_help = "Examples:
   umbrage shadow fixtures/scenes/bunny.glb --area --map-size 128 --size 96x72 -o shadows
-  umbrage shadow gallery:three-lights --truth --size 128x128 --format exr -o truth")]
+  umbrage shadow gallery:three-lights --truth --size 128x128 --format exr -o truth
+  umbrage shadow gallery:three-lights --size 96x72 --shard 1/2 -o shared")]
     Shadow(ShadowArgs),
+    /// Give pictures that were drawn by shards their names, once all of them are there
+    #[command(after_help = "The folder .parts in DIR is where shards leave them; it is removed.
+
+Examples:
+  umbrage render gallery:table gallery:contact-box --size 96x72 --shard 1/1 -o drawn/
+  umbrage gather drawn")]
+    Gather(GatherArgs),
+    /// Print a job for a scheduler that draws a command line's pictures in N shards and then gathers them
+    #[command(
+        after_help = "Relative paths of an OpenJD template begin in its parameter Folder, which is the template's own folder unless given. A Slurm
+script is run by sh, not by sbatch: it submits the shards as an array, and a job that gathers once all of them have succeeded.
+
+Examples:
+  umbrage jobs openjd 4 -- umbrage render fixtures/scenes/bend.glb --frames 1..48 -o bend/ > job.yaml
+  umbrage jobs slurm 4 -- umbrage shadow 'shot.####.glb' --frames 1..240 --area -o shadows > job.sh"
+    )]
+    Jobs(JobsArgs),
     /// Write the shadow map of each light: a file for each, of one part, or of several around a light that one map cannot hold
     #[command(after_help = "Examples:
   umbrage bake gallery:contact-box -o maps
@@ -86,12 +106,27 @@ Examples:
     Generate(GenerateArgs),
 }
 
-/// A scene, and how it is seen.
+/// The pictures that are drawn, and how they are shared out.
+#[derive(Args)]
+pub struct TakesArgs {
+    /// glTF files (.glb or .gltf), or `gallery:NAME`, scenes that are built in (`umbrage scenes` lists them)
+    #[arg(value_name = "SCENE", required = true)]
+    pub scenes: Vec<String>,
+    /// Draw the frames from A to B, both included. A frame's number is its key of randomness, as --frame gives it, and stands in place of
+    /// each run of # in SCENE, with zeros before it to the length of the run: in frame 7, shot.####.glb is shot.0007.glb. A SCENE without
+    /// # is the same in all frames, at the moment of --time, with other noise. Pictures have the number in four digits: in place of the
+    /// run in the scene's name, or else after the name
+    #[arg(long, value_name = "A..B", value_parser = frames, conflicts_with = "frame")]
+    pub frames: Option<Frames>,
+    /// Draw only the I-th picture and every N-th after it, into the folder .parts of the output, unless they are there already; once all
+    /// N shards are done, `umbrage gather` gives the pictures their names
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    pub shard: Option<Shard>,
+}
+
+/// How a scene is seen.
 #[derive(Args)]
 pub struct SceneArgs {
-    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a scene that is built in (`umbrage scenes` lists them)
-    #[arg(value_name = "SCENE")]
-    pub scene: String,
     /// Columns and rows of the picture; the vertical angle of view is kept
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<UVec2>,
@@ -122,10 +157,16 @@ pub struct SceneArgs {
 #[derive(Args)]
 pub struct RenderArgs {
     #[command(flatten)]
+    pub takes: TakesArgs,
+    #[command(flatten)]
     pub scene: SceneArgs,
-    /// The picture: .png (sRGB) or .exr (linear)
-    #[arg(short, long, value_name = "IMAGE")]
+    /// The picture, .png (sRGB) or .exr (linear); of several scenes, frames or shards the folder that is filled, which exists or is
+    /// written with / at its end
+    #[arg(short, long, value_name = "IMAGE|DIR")]
     pub output: PathBuf,
+    /// Of pictures in a folder: png (sRGB) or exr (linear); png unless given
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
     /// Samples for each pixel: 1 (its centre), 4, 16 or 64
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = samples)]
     pub samples: u32,
@@ -133,6 +174,8 @@ pub struct RenderArgs {
 
 #[derive(Args)]
 pub struct ShadowArgs {
+    #[command(flatten)]
+    pub takes: TakesArgs,
     #[command(flatten)]
     pub scene: SceneArgs,
     /// The folder that is filled
@@ -155,10 +198,45 @@ pub struct ShadowArgs {
     pub truth: bool,
 }
 
+#[derive(Args)]
+pub struct GatherArgs {
+    /// The folder that the shards filled, their -o
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+}
+
+#[derive(Args)]
+pub struct JobsArgs {
+    /// The form of the job
+    #[arg(value_enum)]
+    pub scheduler: Scheduler,
+    /// How many shards share the pictures
+    #[arg(value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_PICTURES as i64))]
+    pub shards: u32,
+    /// What is shared: `umbrage render` or `umbrage shadow` with all that follows, but --shard
+    #[arg(value_name = "COMMAND LINE", last = true, required = true)]
+    pub words: Vec<String>,
+}
+
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Scheduler {
+    /// Open Job Description, a template of the version 2023-09 in YAML
+    Openjd,
+    /// A script that submits jobs to Slurm
+    Slurm,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
     Png,
     Exr,
+}
+
+impl Format {
+    /// What names of such files end in.
+    pub fn extension(self) -> &'static str {
+        if self == Self::Png { "png" } else { "exr" }
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -167,17 +245,11 @@ pub enum WindowArg {
     Fitted,
 }
 
-/// How large lights are.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Area {
-    /// As the scene says.
-    File,
-    /// All of one radius: world units, of a sun radians.
-    Radius(f64),
-}
-
 #[derive(Args)]
 pub struct BakeArgs {
+    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a scene that is built in (`umbrage scenes` lists them)
+    #[arg(value_name = "SCENE")]
+    pub source: String,
     #[command(flatten)]
     pub scene: SceneArgs,
     /// The folder that is filled
@@ -206,6 +278,9 @@ pub enum RuleArg {
 
 #[derive(Args)]
 pub struct ExportArgs {
+    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a scene that is built in (`umbrage scenes` lists them)
+    #[arg(value_name = "SCENE")]
+    pub source: String,
     #[command(flatten)]
     pub scene: SceneArgs,
     /// The file, .glb
@@ -277,27 +352,4 @@ pub struct GenerateArgs {
 pub enum What {
     Man,
     Completions,
-}
-
-fn size(text: &str) -> Result<UVec2, String> {
-    let side = |text: &str| text.parse::<u32>().ok().filter(|side| (1..=16384).contains(side));
-    let sides = text.split_once('x').and_then(|(width, height)| Some(UVec2::new(side(width)?, side(height)?)));
-    sides.ok_or_else(|| "expected WIDTHxHEIGHT, each from 1 to 16384".into())
-}
-
-fn samples(text: &str) -> Result<u32, String> {
-    let number = text.parse().ok().filter(|number| [1, 4, 16, 64].contains(number));
-    number.ok_or_else(|| "expected 1, 4, 16 or 64".into())
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|number: &f64| number.is_finite()).ok_or_else(|| "expected a finite number".into())
-}
-
-fn area(text: &str) -> Result<Area, String> {
-    if text == "file" {
-        return Ok(Area::File);
-    }
-    let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
-    number.map(Area::Radius).ok_or_else(|| "expected a finite number above 0".into())
 }

@@ -2,7 +2,7 @@
 
 use crate::args::{BakeArgs, Cli, RuleArg};
 use crate::names;
-use crate::shadow::report;
+use crate::report::{Line, report};
 use crate::shell::{Shell, Usage};
 use crate::stage::{Lamp, Stage};
 use anyhow::Context;
@@ -17,7 +17,7 @@ pub fn run(cli: &Cli, args: &BakeArgs, shell: &mut Shell<'_>) -> anyhow::Result<
         return Err(Usage("--recipe: a map is baked by --rule; a recipe is chosen when it is looked up".into()).into());
     }
     let recipe: Recipe = recipe(args.rule).parse().context("--rule")?;
-    let stage = Stage::new(&args.scene, cli.max_memory, 0, shell)?;
+    let stage = Stage::new(&args.source, &args.scene, cli.max_memory, 0, shell)?;
     create_folder(&args.output)?;
     let (mut files, mut lines, mut all) = (Vec::new(), Vec::new(), Vec::new());
     let progress = shell.progress(stage.lamps.len());
@@ -44,7 +44,7 @@ pub fn run(cli: &Cli, args: &BakeArgs, shell: &mut Shell<'_>) -> anyhow::Result<
             written = start.elapsed();
             files.push(path);
         }
-        lines.push((lamp.name.clone(), recipe.to_string(), bytes, baked, written));
+        lines.push(Line { light: lamp.name.clone(), recipe: recipe.to_string(), bytes, baked, looked_up: written });
         progress.inc(1);
     }
     drop(progress);
@@ -53,7 +53,7 @@ pub fn run(cli: &Cli, args: &BakeArgs, shell: &mut Shell<'_>) -> anyhow::Result<
         write_maps(&path, &all)?;
         files.push(path);
     }
-    report(cli, shell, &files, lines)
+    report(cli, shell, &files, &lines)
 }
 
 /// What the maps of a light are called.

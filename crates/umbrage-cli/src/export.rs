@@ -9,6 +9,6 @@ pub fn run(cli: &Cli, args: &ExportArgs, shell: &mut Shell<'_>) -> anyhow::Resul
     if !args.output.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("glb")) {
         return Err(Usage(format!("--output {}: expected .glb", args.output.display())).into());
     }
-    let stage = Stage::new(&args.scene, cli.max_memory, 0, shell)?;
+    let stage = Stage::new(&args.source, &args.scene, cli.max_memory, 0, shell)?;
     Ok(write_bytes(&args.output, &umbrage_gltf::encode(&stage.scene)?)?)
 }

@@ -4,19 +4,29 @@
 
 mod args;
 mod bake;
+mod digest;
+mod draws;
 mod export;
+mod farm;
+mod gather;
 mod generate;
 mod info;
 mod lamp;
 mod listing;
 mod lookup;
+mod manifest;
 mod maps;
 mod memory;
 mod names;
+mod parts;
+mod pictures;
 mod render;
+mod report;
 mod shadow;
 mod shell;
 mod stage;
+mod takes;
+mod values;
 
 use args::{Cli, Command};
 use clap::Parser;
@@ -91,6 +101,8 @@ fn command(cli: &Cli, shell: &mut Shell<'_>) -> anyhow::Result<()> {
     match &cli.command {
         Command::Render(args) => render::run(cli, args, shell),
         Command::Shadow(args) => shadow::run(cli, args, shell),
+        Command::Gather(args) => gather::run(cli, args, shell),
+        Command::Jobs(args) => farm::run(args, shell),
         Command::Bake(args) => bake::run(cli, args, shell),
         Command::Export(args) => export::run(cli, args, shell),
         Command::Info(args) => info::run(cli, args, shell),

@@ -1,15 +1,19 @@
 //! `umbrage shadow`.
 
-use crate::args::{Area, Cli, Format, ShadowArgs, WindowArg};
+use crate::args::{Cli, Format, SceneArgs, ShadowArgs, WindowArg};
+use crate::draws::{Draws, Keep};
+use crate::report::Line;
 use crate::shell::{Shell, Usage};
-use crate::stage::{Lamp, Stage};
-use crate::{lamp, names};
-use glam::{UVec2, Vec3};
-use serde_json::json;
+use crate::stage::{self, Lamp, Stage};
+use crate::takes::Take;
+use crate::values::Area;
+use crate::{lamp, names, pictures};
+use glam::Vec3;
+use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use umbrage_io::{IoError, create_folder, encode_exr_values, encode_png_values, write_bytes};
+use umbrage_io::{encode_exr_values, encode_png_values};
 use umbrage_oracle::{AreaLight, Geometry, RayCast, Truth};
 use umbrage_plane::{SurfacePoint, View};
 use umbrage_recipe::Recipe;
@@ -23,35 +27,109 @@ const AREA_RAYS: [u32; 2] = [4, 256];
 
 pub fn run(cli: &Cli, args: &ShadowArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {
     let samples = args.samples.unwrap_or(if args.truth { 64 } else { 1 });
-    let stage = Stage::new(&args.scene, cli.max_memory, samples, shell)?;
-    create_folder(&args.output)?;
-    let geometry = args.truth.then(|| Geometry::new(&stage.scene, &stage.scene.camera));
-    let frame = frame(samples, cli.seed, args.scene.frame);
-    let (mut files, mut lines) = (Vec::new(), Vec::new());
-    let progress = shell.progress(stage.lamps.len());
-    for lamp in &stage.lamps {
-        progress.set_message(lamp.name.clone());
-        let start = Instant::now();
-        let (fractions, name, bytes, baked) = if let Some(geometry) = &geometry {
-            let frame = Frame { every_sample: true, ..frame };
-            (by_rays(&stage, lamp, geometry, area(&stage, lamp, args)?, &frame), "rays".into(), 0, Duration::ZERO)
-        } else {
-            let recipe = recipe(&stage.recipe_of(lamp)?, area(&stage, lamp, args)?, args.window)?;
-            let made = lamp::shadow_of(&stage, lamp, &recipe)?;
-            let baked = start.elapsed();
-            let bytes = made.maps.iter().map(|map| map.bytes).sum();
-            (drawn(&stage.scene, lamp, &*made.shadow, &frame), recipe.to_string(), bytes, baked)
+    let command = Shadows { cli, args, samples };
+    pictures::run(cli, &args.takes, args.scene.frame, (&args.output, true), &command, shell)
+}
+
+struct Shadows<'a> {
+    cli: &'a Cli,
+    args: &'a ShadowArgs,
+    samples: u32,
+}
+
+impl Draws for Shadows<'_> {
+    fn options(&self) -> anyhow::Result<Map<String, Value>> {
+        let ShadowArgs { format, window, area, truth, .. } = self.args;
+        let area = match area {
+            None => Value::Null,
+            Some(Area::File) => json!("file"),
+            Some(Area::Radius(radius)) => json!(radius),
         };
-        let looked_up = start.elapsed().saturating_sub(baked);
-        let (extension, area) = (if args.format == Format::Png { "png" } else { "exr" }, args.area.map(|_| "area"));
-        let path = names::file(&args.output, &stage.scene.name, stage.part(lamp), area.as_slice(), extension);
-        write(&path, args.format, stage.scene.camera.size(), &fractions)?;
-        files.push(path);
-        lines.push((lamp.name.clone(), name, bytes, baked, looked_up));
-        progress.inc(1);
+        let mut all = options(self.cli, &self.args.scene)?;
+        for (name, value) in [
+            ("samples", json!(self.samples)),
+            ("format", json!(format.extension())),
+            ("window", json!(if *window == WindowArg::Fitted { "fitted" } else { "file" })),
+            ("area", area),
+            ("truth", json!(truth)),
+        ] {
+            all.insert(name.into(), value);
+        }
+        Ok(all)
     }
-    drop(progress);
-    report(cli, shell, &files, lines)
+
+    fn lights(&self, source: &str, shell: &mut Shell<'_>) -> anyhow::Result<Vec<Option<String>>> {
+        let stage = self.stage(source, shell)?;
+        Ok(stage.lamps.iter().map(|lamp| stage.part(lamp).map(str::to_owned)).collect())
+    }
+
+    fn file(&self, take: &Take, light: Option<&str>) -> PathBuf {
+        let area = self.args.area.map(|_| "area");
+        names::file(Path::new(""), &take.name, light, area.as_slice(), self.args.format.extension())
+    }
+
+    fn stage(&self, source: &str, shell: &mut Shell<'_>) -> anyhow::Result<Stage> {
+        Stage::new(source, &self.args.scene, self.cli.max_memory, self.samples, shell)
+    }
+
+    fn draw(
+        &self,
+        stage: Stage,
+        take: &Take,
+        wanted: &dyn Fn(&Path) -> bool,
+        keep: &mut Keep<'_>,
+        shell: &mut Shell<'_>,
+    ) -> anyhow::Result<Vec<Line>> {
+        let args = self.args;
+        let geometry = args.truth.then(|| Geometry::new(&stage.scene, &stage.scene.camera));
+        let frame = frame(self.samples, self.cli.seed, take.frame);
+        let encode = if args.format == Format::Png { encode_png_values } else { encode_exr_values };
+        let of = |lamp| (self.file(take, stage.part(lamp)), lamp);
+        let wanted: Vec<(PathBuf, &Lamp)> = stage.lamps.iter().map(of).filter(|(file, _)| wanted(file)).collect();
+        let progress = shell.progress(wanted.len());
+        let mut lines = Vec::new();
+        for (file, lamp) in wanted {
+            progress.set_message(format!("{}{}", take.label, lamp.name));
+            let start = Instant::now();
+            let area = area(&stage, lamp, args)?;
+            let (fractions, recipe, bytes, baked) = if let Some(geometry) = &geometry {
+                let frame = Frame { every_sample: true, ..frame };
+                (by_rays(&stage, lamp, geometry, area, &frame), "rays".into(), 0, Duration::ZERO)
+            } else {
+                let recipe = recipe(&stage.recipe_of(lamp)?, area, args.window)?;
+                let made = lamp::shadow_of(&stage, lamp, &recipe)?;
+                let baked = start.elapsed();
+                let bytes = made.maps.iter().map(|map| map.bytes).sum();
+                (drawn(&stage.scene, lamp, &*made.shadow, &frame), recipe.to_string(), bytes, baked)
+            };
+            let looked_up = start.elapsed().saturating_sub(baked);
+            keep(file, encode(stage.scene.camera.size(), &fractions))?;
+            lines.push(Line { light: lamp.name.clone(), recipe, bytes, baked, looked_up });
+            progress.inc(1);
+        }
+        Ok(lines)
+    }
+}
+
+/// What the pictures of any command depend on, by the names of the options.
+///
+/// # Errors
+/// A recipe that cannot be read.
+pub fn options(cli: &Cli, args: &SceneArgs) -> anyhow::Result<Map<String, Value>> {
+    let SceneArgs { size, map_size, recipe, light, camera, time, animation, frame: _ } = args;
+    // A recipe's file may change, and its text may be written in several ways.
+    let recipe = recipe.as_deref().map(|text| stage::recipe(text, *map_size)).transpose()?;
+    let options = [
+        ("seed", json!(cli.seed)),
+        ("size", json!(size.map(|size| size.to_array()))),
+        ("map-size", json!(map_size)),
+        ("recipe", json!(recipe.map(|recipe| recipe.to_string()))),
+        ("light", json!(light)),
+        ("camera", json!(camera)),
+        ("time", json!(time)),
+        ("animation", json!(animation)),
+    ];
+    Ok(options.map(|(name, value)| (name.to_owned(), value)).into_iter().collect())
 }
 
 /// So many samples for each pixel; one is its centre.
@@ -130,43 +208,4 @@ impl Shadow for Turned<'_> {
     fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
         self.shadow.transmittances(at, key, fractions, out);
     }
-}
-
-fn write(path: &Path, format: Format, size: UVec2, fractions: &[f32]) -> Result<(), IoError> {
-    let bytes = match format {
-        Format::Png => encode_png_values(size, fractions),
-        Format::Exr => encode_exr_values(size, fractions),
-    };
-    let bytes = bytes.map_err(|fault| IoError::Content { file: path.display().to_string(), fault })?;
-    write_bytes(path, &bytes)
-}
-
-/// What was done for one light: its name, the algorithm, bytes of its maps, and how long maps and look-ups took.
-type Line = (String, String, usize, Duration, Duration);
-
-/// Says what was written: as JSON on stdout where that is wanted, and one line for each light for people.
-pub fn report(
-    cli: &Cli,
-    shell: &mut Shell<'_>,
-    files: &[PathBuf],
-    lines: impl IntoIterator<Item = Line>,
-) -> anyhow::Result<()> {
-    let milliseconds = |time: Duration| (time.as_secs_f64() * 1e5).round() / 1e2;
-    let mut lights = Vec::new();
-    for (name, recipe, bytes, baked, looked_up) in lines {
-        shell.note(&format!(
-            "{name}: {recipe}, {bytes} bytes, baked in {} ms, looked up in {} ms",
-            milliseconds(baked),
-            milliseconds(looked_up)
-        ));
-        lights.push(json!({
-            "light": name, "recipe": recipe, "bytes": bytes,
-            "bake_ms": milliseconds(baked), "lookup_ms": milliseconds(looked_up),
-        }));
-    }
-    let files: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
-    if cli.json {
-        writeln!(shell.out, "{}", json!({ "files": files, "lights": lights }))?;
-    }
-    Ok(())
 }

@@ -13,6 +13,9 @@ use umbrage_plane::{Projection, View, ViewError};
 use umbrage_recipe::Recipe;
 use umbrage_scene::{Scene, gallery};
 
+/// What stands before the name of a scene that is built in.
+pub const GALLERY: &str = "gallery:";
+
 /// Rows of a picture whose size is not given.
 const HEIGHT: u32 = 512;
 
@@ -42,14 +45,20 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// The scene that is asked for. `samples` are those of each pixel of a picture, 0 where none is drawn.
+    /// The scene of a file or of the gallery, by `source`. `samples` are those of each pixel of a picture, 0 where none is drawn.
     ///
     /// # Errors
     /// One line that says what is wrong with the scene or with what was asked of it.
-    pub fn new(args: &SceneArgs, max_memory: Option<u64>, samples: u32, shell: &mut Shell<'_>) -> anyhow::Result<Self> {
-        let (scene, lamps) = match args.scene.strip_prefix("gallery:") {
+    pub fn new(
+        source: &str,
+        args: &SceneArgs,
+        max_memory: Option<u64>,
+        samples: u32,
+        shell: &mut Shell<'_>,
+    ) -> anyhow::Result<Self> {
+        let (scene, lamps) = match source.strip_prefix(GALLERY) {
             Some(name) => built_in(name, args)?,
-            None => from_file(args, max_memory, shell)?,
+            None => from_file(source, args, max_memory, shell)?,
         };
         let size = scene.camera.size();
         let recipe = args.recipe.as_deref().map(|text| recipe(text, args.map_size)).transpose()?;
@@ -135,14 +144,15 @@ fn built_in(name: &str, args: &SceneArgs) -> anyhow::Result<(Scene, Vec<umbrage_
 
 /// A scene from a file, whose reader's notes are passed on.
 fn from_file(
+    source: &str,
     args: &SceneArgs,
     max_memory: Option<u64>,
     shell: &mut Shell<'_>,
 ) -> anyhow::Result<(Scene, Vec<umbrage_gltf::Lamp>)> {
-    let path = Path::new(&args.scene);
+    let path = Path::new(source);
     let known = |extension: &std::ffi::OsStr| ["glb", "gltf"].iter().any(|known| extension.eq_ignore_ascii_case(known));
     if !path.extension().is_some_and(known) {
-        return Err(Usage(format!("scene {:?}: expected a .glb or .gltf file, or gallery:NAME", args.scene)).into());
+        return Err(Usage(format!("scene {source:?}: expected a .glb or .gltf file, or gallery:NAME")).into());
     }
     let options = ReadOptions::default()
         .with_size(args.size)

@@ -19,6 +19,14 @@ pub fn create_folder(path: &Path) -> Result<(), IoError> {
     std::fs::create_dir_all(path).map_err(system(path, "create"))
 }
 
+/// Removes a folder and all that is in it; links in it are removed and not followed.
+///
+/// # Errors
+/// [`IoError::System`].
+pub fn remove_folder(path: &Path) -> Result<(), IoError> {
+    std::fs::remove_dir_all(path).map_err(system(path, "remove"))
+}
+
 /// All memory of the machine, bytes; `None` where the system does not say so in `/proc/meminfo`.
 pub fn machine_memory() -> Option<u64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;

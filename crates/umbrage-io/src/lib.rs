@@ -12,7 +12,7 @@
 //! * [`read_map`]: whichever of these maps a file holds.
 //! * [`write_maps`] and [`read_maps`]: several of them in one file, a part for each, by name; [`MapOptions`] help with files of other makers.
 //! * [`depth_view`] and [`replicate`]: a map as a grey picture, a zoom without invention.
-//! * [`read_bytes`], [`create_folder`] and [`file_bytes`]: files for those who open none themselves.
+//! * [`read_bytes`], [`create_folder`], [`remove_folder`] and [`file_bytes`]: files for those who open none themselves.
 //! * [`write_atomic`]: the one path on which all of these write. A killed run leaves no torn file.
 //!
 //! Files are not trusted: sizes are checked against the file's length and a budget before memory is taken, and every fault
@@ -52,7 +52,7 @@ pub use error::{Fault, IoError};
 pub use facet_map::{
     DEFAULT_FACET_BUDGET, decode_facet_map, encode_facet_map, read_facet_map, read_facet_map_within, write_facet_map,
 };
-pub use file::{create_folder, file_bytes, machine_memory, read_bytes};
+pub use file::{create_folder, file_bytes, machine_memory, read_bytes, remove_folder};
 pub use map_options::{DEFAULT_BUDGET, GivenView, MapOptions};
 pub use named::{CUBE_FACES, FACES_AHEAD, light_of};
 pub use paged::{Paged, PagedHandle};

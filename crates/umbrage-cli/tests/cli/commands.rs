@@ -208,7 +208,16 @@ fn pages_and_completions_are_written() {
     good(&["generate", "man", text(&out)]);
     good(&["generate", "completions", text(&out)]);
     let names = files(&out);
-    for name in ["umbrage.1", "umbrage-shadow.1", "umbrage-lookup.1", "umbrage.bash", "_umbrage", "umbrage.fish"] {
+    for name in [
+        "umbrage.1",
+        "umbrage-shadow.1",
+        "umbrage-lookup.1",
+        "umbrage-gather.1",
+        "umbrage-jobs.1",
+        "umbrage.bash",
+        "_umbrage",
+        "umbrage.fish",
+    ] {
         assert!(names.iter().any(|known| known == name), "{name} is not among {names:?}");
     }
     assert!(!names.iter().any(|name| name.contains("generate")));

@@ -11,7 +11,7 @@ fn folder(name: &str) -> PathBuf {
     std::fs::create_dir_all(&folder).expect("a folder");
     let scenes = folder.join("fixtures/scenes");
     std::fs::create_dir_all(&scenes).expect("a folder");
-    for name in ["suzi.glb", "bunny.glb"] {
+    for name in ["suzi.glb", "bunny.glb", "bend.glb"] {
         let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/scenes").join(name);
         std::fs::copy(kept, scenes.join(name)).expect("a scene");
     }
@@ -20,7 +20,7 @@ fn folder(name: &str) -> PathBuf {
 }
 
 /// Runs a line of a shell that must succeed, and returns what it printed.
-fn shell(folder: &Path, line: &str) -> String {
+pub fn shell(folder: &Path, line: &str) -> String {
     let programs = Path::new(BINARY).parent().expect("a folder").display();
     let path = format!("{programs}:{}", std::env::var("PATH").unwrap_or_default());
     let ran =
@@ -39,11 +39,13 @@ fn lines(text: &str) -> Vec<&str> {
 fn every_example_of_help_runs() {
     let folder = folder("examples-help");
     // Maps are baked before they are asked about.
-    for command in ["render", "shadow", "bake", "export", "info", "lookup", "recipes", "scenes"] {
+    let commands = ["render", "shadow", "gather", "jobs", "bake", "export", "info", "lookup", "recipes", "scenes"];
+    for command in commands {
         let help = shell(&folder, &format!("umbrage {command} --help"));
         let (_, examples) = help.split_once("Examples:").expect("examples");
         let examples = lines(examples);
-        assert_eq!(examples.len(), 2, "{command}: {examples:?}");
+        let shown = if ["render", "shadow"].contains(&command) { 3 } else { 2 };
+        assert_eq!(examples.len(), shown, "{command}: {examples:?}");
         for line in examples {
             shell(&folder, line);
         }

@@ -8,4 +8,6 @@ mod lamps;
 mod lookups;
 mod maps;
 mod scenes;
+mod shards;
+mod templates;
 mod typed;
