@@ -4,12 +4,13 @@ use glam::{UVec2, Vec3};
 use std::sync::Arc;
 use umbrage_bake::{advised_map_sizes, bake};
 use umbrage_depth::{First, Raw, Storage, Tiled};
-use umbrage_plane::{Bias, Sampling, View};
+use umbrage_plane::{Bias, Sampling, SurfacePoint, View, cube_views};
 use umbrage_raster::Cull;
 use umbrage_recipe::{Recipe, bind};
 use umbrage_render::{Frame, Picture, Soup, picture};
+use umbrage_sample::Key;
 use umbrage_scene::{Scene, gallery};
-use umbrage_shadow::{Shadow, Unshadowed, presets};
+use umbrage_shadow::{Around, LatLong, Shadow, Unshadowed, presets};
 
 fn small(mut scene: Scene, pixels: u32, texels: u32) -> Scene {
     scene.camera = scene.camera.with_size(UVec2::splat(pixels)).unwrap();
@@ -56,6 +57,45 @@ fn c9_threads_and_storages_change_no_bit() {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
                 let found = bits(&pool.install(|| shot(&scene, recipe, storage, &frame)));
                 assert!(found == expected, "{recipe}, {storage:?}, {threads} threads");
+            }
+        }
+    }
+}
+
+/// Batches of thousands of points are split over the threads of a pool, where the renderer asks for that: each answer is that of its point alone.
+#[test]
+fn c9_batches_of_any_length_are_the_bits_of_their_points() {
+    let scene = small(gallery::sphere_plane(), 8, 128);
+    let view = &scene.lights[0].view;
+    let own = map(&scene, view);
+    let faces = cube_views(view.light().truncate(), view.near(), view.far(), 64).unwrap();
+    let faces: Vec<Arc<Tiled>> = faces.iter().map(|face| map(&scene, face)).collect();
+    let cube = Around::new(presets::reeves87().filter, faces.clone()).unwrap();
+    let flat = LatLong::from_maps(presets::reeves87().filter, &faces, UVec2::new(64, 32)).unwrap();
+    let shadows: [(&str, Box<dyn Shadow>); 3] = [
+        ("one map", Box::new(presets::reeves87().over(own).unwrap())),
+        ("cube", Box::new(cube)),
+        ("lat-long", Box::new(flat)),
+    ];
+    let points: Vec<SurfacePoint> = (0..9001)
+        .map(|i| {
+            let at = Vec3::new((i % 95) as f32 - 47.0, (i / 95) as f32 - 47.0, 0.0);
+            let corner = |x: f32, y: f32| at + Vec3::new(x, y, 0.0);
+            let corners = [corner(-0.5, 0.5), corner(0.5, 0.5), corner(0.5, -0.5), corner(-0.5, -0.5)];
+            SurfacePoint { region: i, ..SurfacePoint::at(at, Vec3::Z).with_corners(corners) }
+        })
+        .collect();
+    let key = Key::new(5, 0, 0);
+    for (name, shadow) in shadows {
+        let expected: Vec<u32> = points.iter().map(|point| shadow.fraction(point, key).to_bits()).collect();
+        assert!(expected.iter().any(|bits| *bits != 0) && expected.contains(&0), "{name}: shadow and light");
+        for threads in [1, 2, 5] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            for length in [9001, 4096, 4095, 1] {
+                let mut found = vec![f32::NAN; length];
+                pool.install(|| shadow.fractions(&points[..length], key, &mut found));
+                let found: Vec<u32> = found.iter().map(|fraction| fraction.to_bits()).collect();
+                assert!(found == expected[..length], "{name}, {threads} threads, {length} points");
             }
         }
     }

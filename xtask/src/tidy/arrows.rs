@@ -48,7 +48,7 @@ const RULES: &[Rule] = &[
     Rule {
         package: "umbrage-shadow",
         arrows: &["umbrage-plane", "umbrage-sample", "umbrage-depth"],
-        outside: &["arrayvec", "fearless_simd", "glam", "thiserror"],
+        outside: &["arrayvec", "fearless_simd", "glam", "rayon", "thiserror"],
         tests: PROPERTIES,
     },
     Rule {

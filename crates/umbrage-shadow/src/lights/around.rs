@@ -1,3 +1,4 @@
+use super::parts::in_parts;
 use super::{Shadow, Unshadowed, by_channel, same_length};
 use crate::query::answer;
 use crate::surfaces::Channel;
@@ -152,7 +153,7 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
 
 impl<F: Filter, M: DepthMap> Shadow for Around<F, M> {
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
-        self.batch(Channel::All, at, key, out, &mut ());
+        in_parts(at, out, |at, out| self.batch(Channel::All, at, key, out, &mut ()));
     }
 
     fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {

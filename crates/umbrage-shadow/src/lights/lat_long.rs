@@ -1,5 +1,6 @@
+use super::Shadow;
 use super::around::nearest;
-use super::{Shadow, same_length};
+use super::parts::in_parts;
 use crate::{Biased, Pcf, Query};
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec2};
 use umbrage_depth::{DepthMap, MapError, Raw};
@@ -106,12 +107,13 @@ impl<P: Pattern> LatLong<P> {
 
 impl<P: Pattern> Shadow for LatLong<P> {
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
-        same_length(at, out);
-        vectorized!(simd => {
-            for (point, fraction) in at.iter().zip(out.iter_mut()) {
-                let (receiver, key) = (self.receiver(point), key.region(point.region));
-                *fraction = Query::new(simd, &self.map, &receiver, key, &mut ()).ask(&self.filter);
-            }
+        in_parts(at, out, |at, out| {
+            vectorized!(simd => {
+                for (point, fraction) in at.iter().zip(out.iter_mut()) {
+                    let (receiver, key) = (self.receiver(point), key.region(point.region));
+                    *fraction = Query::new(simd, &self.map, &receiver, key, &mut ()).ask(&self.filter);
+                }
+            });
         });
     }
 }

@@ -4,6 +4,7 @@ mod around;
 mod bounded;
 mod lat_long;
 mod mean;
+mod parts;
 mod several;
 mod shadow_map;
 mod tags;
@@ -24,6 +25,8 @@ use umbrage_plane::SurfacePoint;
 use umbrage_sample::Key;
 
 /// What shading sees of a shadow algorithm, and the one place where types are erased: a call answers a whole batch of regions.
+/// With the feature `rayon`, shadows over maps split batches of thousands of points over the threads of the current pool; the answers are
+/// the same bits.
 ///
 /// `key` names the picture's light; the implementor adds each point's region to it, and refuses slices of other lengths by
 /// [`same_length`].

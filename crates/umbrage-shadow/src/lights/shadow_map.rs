@@ -1,3 +1,4 @@
+use super::parts::in_parts;
 use super::{Shadow, Unshadowed, by_channel, same_length};
 use crate::query::answer;
 use crate::surfaces::Channel;
@@ -86,7 +87,7 @@ fn batch<S: Simd, F: Filter, M: DepthMap, P: Probe>(
 
 impl<F: Filter, M: DepthMap> Shadow for ShadowMap<F, M> {
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
-        self.fractions_probed(at, key, out, &mut ());
+        in_parts(at, out, |at, out| self.batch(Channel::All, at, key, out, &mut ()));
     }
 
     fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
