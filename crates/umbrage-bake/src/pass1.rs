@@ -85,6 +85,9 @@ pub(crate) struct Pass<'a, R, F> {
 /// Cells of a tile.
 const CELLS: usize = (BIN * BIN) as usize;
 
+/// Fragments that take less time one by one than in runs.
+const FEW: u32 = 4;
+
 impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     /// Reduces and resolves what was drawn with `fine` and `cull`.
     pub fn run(&self, bins: &Bins, cull: Cull) -> Baked {
@@ -155,19 +158,36 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
                     #[inline(always)]
                     |facet, coverage| {
                         let cells = cells.get_or_insert_with(|| Box::new([R::EMPTY; CELLS]));
+                        let count = coverage.count();
                         if pass == 0 {
-                            fragments += u64::from(coverage.count());
+                            fragments += u64::from(count);
                         }
-                        if axis == 1 && self.front.is_none() {
-                            self.add_runs(pass, cells, part, facet, coverage);
-                        } else {
+                        if axis > 1 || self.front.is_some() {
                             self.add_each(pass, cells, tile, part, facet, coverage);
+                        } else if count <= FEW {
+                            self.add_few(pass, cells, part, facet, coverage);
+                        } else {
+                            self.add_runs(pass, cells, part, facet, coverage);
                         }
                     },
                 );
             }
         }
         (cells, fragments)
+    }
+
+    /// Offers a facet to the cells of a tile, one by one.
+    #[inline(always)]
+    fn add_few(&self, pass: u32, cells: &mut [R::Cell; CELLS], tile: UVec2, facet: &Facet, coverage: &Coverage) {
+        let front = facet.facing == Facing::Front;
+        each_fragment(
+            self.fine,
+            (tile * BIN).as_ivec2(),
+            facet,
+            coverage,
+            #[inline(always)]
+            |cell, _, key| self.rule.add(pass, &mut cells[cell], key, front, facet),
+        );
     }
 
     /// Offers a facet to the cells of a tile, several at a time.
