@@ -45,6 +45,7 @@ mod coverage;
 mod eight;
 mod fragments;
 mod gathered;
+mod patch;
 mod setup;
 mod spans;
 
