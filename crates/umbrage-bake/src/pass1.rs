@@ -3,7 +3,7 @@ use crate::masks::Masks;
 use glam::{DVec2, IVec2, UVec2};
 use rayon::prelude::*;
 use std::sync::Arc;
-use umbrage_depth::{DepthRule, RUN, Reduction, Stored, Tile, Tiled};
+use umbrage_depth::{DepthRule, ROW, Reduction, Row, Stored, Tile, Tiled};
 use umbrage_plane::{Facet, Facing, TexelRect, View, ViewError, vectorized};
 use umbrage_raster::{BIN, Bins, Coverage, Cull, Stats, each_fragment, each_run};
 
@@ -111,23 +111,22 @@ impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     }
 
     #[inline(always)]
-    fn resolve(&self, cells: &[R::Cell; CELLS], tile: UVec2) -> Option<Tile> {
+    fn resolve(&self, rows: &[R::Row; ROW], tile: UVec2) -> Option<Tile> {
         let (sampling, origin) = (self.view.sampling(), (tile * BIN).as_ivec2());
         let nearest = self.view.key(self.view.near()) as f32;
         let mut depths = Box::new([f32::INFINITY; CELLS]);
         self.view.decoding(
             #[inline(always)]
             |decode| {
-                let rows = cells.chunks_exact(BIN as usize).zip(depths.chunks_exact_mut(BIN as usize));
-                for (y, (cells, depths)) in (0..).zip(rows) {
+                for (y, (cells, depths)) in (0..).zip(rows.iter().zip(depths.as_chunks_mut::<ROW>().0)) {
                     // Nothing but this loop knows the row, so that what the rule holds need not be read again for each texel.
-                    let mut row = [f32::INFINITY; BIN as usize];
-                    for (x, (cell, depth)) in (0..).zip(cells.iter().zip(&mut row)) {
+                    let mut row = [f32::INFINITY; ROW];
+                    for (x, depth) in (0..).zip(&mut row) {
                         let at = sampling.position(origin + IVec2::new(x, y));
                         // Clamped only now: a rule must tell surfaces apart that are all nearer than the near plane.
-                        *depth = self.rule.resolve(*cell, decode, at).max(decode.depth(nearest, at));
+                        *depth = self.rule.resolve(cells.get(x as usize), decode, at).max(decode.depth(nearest, at));
                     }
-                    depths.copy_from_slice(&row);
+                    *depths = row;
                 }
             },
         );
@@ -138,13 +137,15 @@ impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
 impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     /// A tile's cells after all fragments, `None` where there were none, and the number of fragments.
     pub fn cells(&self, bins: &Bins, tile: UVec2) -> (Option<Box<[R::Cell; CELLS]>>, u64) {
-        vectorized!(_ => self.draw(bins, tile))
+        let (cells, fragments) = vectorized!(_ => self.draw(bins, tile));
+        let each = |cells: Box<[R::Row; ROW]>| Box::new(std::array::from_fn(|i| cells[i / ROW].get(i % ROW)));
+        (cells.map(each), fragments)
     }
 
     #[inline(always)]
-    fn draw(&self, bins: &Bins, tile: UVec2) -> (Option<Box<[R::Cell; CELLS]>>, u64) {
+    fn draw(&self, bins: &Bins, tile: UVec2) -> (Option<Box<[R::Row; ROW]>>, u64) {
         let axis = self.fine.size().x / self.view.size().x;
-        let mut cells: Option<Box<[R::Cell; CELLS]>> = None;
+        let mut cells: Option<Box<[R::Row; ROW]>> = None;
         let mut fragments = 0;
         for pass in 0..R::PASSES {
             if pass > 0 && cells.as_ref().is_none_or(|cells| self.rule.settled(cells.as_slice())) {
@@ -157,7 +158,7 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
                     part,
                     #[inline(always)]
                     |facet, coverage| {
-                        let cells = cells.get_or_insert_with(|| Box::new([R::EMPTY; CELLS]));
+                        let cells = cells.get_or_insert_with(|| Box::new([R::Row::all(R::EMPTY); ROW]));
                         let count = coverage.count();
                         if pass == 0 {
                             fragments += u64::from(count);
@@ -176,9 +177,18 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
         (cells, fragments)
     }
 
+    /// Offers a fragment to one of the cells of a tile.
+    #[inline(always)]
+    fn add(&self, pass: u32, cells: &mut [R::Row; ROW], index: usize, key: f32, front: bool, facet: &Facet) {
+        let (row, column) = (&mut cells[index / ROW], index % ROW);
+        let mut cell = row.get(column);
+        self.rule.add(pass, &mut cell, key, front, facet);
+        row.set(column, cell);
+    }
+
     /// Offers a facet to the cells of a tile, one by one.
     #[inline(always)]
-    fn add_few(&self, pass: u32, cells: &mut [R::Cell; CELLS], tile: UVec2, facet: &Facet, coverage: &Coverage) {
+    fn add_few(&self, pass: u32, cells: &mut [R::Row; ROW], tile: UVec2, facet: &Facet, coverage: &Coverage) {
         let front = facet.facing == Facing::Front;
         each_fragment(
             self.fine,
@@ -186,15 +196,14 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
             facet,
             coverage,
             #[inline(always)]
-            |cell, _, key| self.rule.add(pass, &mut cells[cell], key, front, facet),
+            |cell, _, key| self.add(pass, cells, cell, key, front, facet),
         );
     }
 
     /// Offers a facet to the cells of a tile, several at a time.
     #[inline(always)]
-    fn add_runs(&self, pass: u32, cells: &mut [R::Cell; CELLS], tile: UVec2, facet: &Facet, coverage: &Coverage) {
+    fn add_runs(&self, pass: u32, cells: &mut [R::Row; ROW], tile: UVec2, facet: &Facet, coverage: &Coverage) {
         let front = facet.facing == Facing::Front;
-        let (runs, _) = cells.as_chunks_mut::<RUN>();
         each_run(
             self.fine,
             (tile * BIN).as_ivec2(),
@@ -203,7 +212,7 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
             #[inline(always)]
             |first, keys| {
                 // Keys of NaN, which are those of the texels that are not covered, change nothing.
-                self.rule.add_run(pass, &mut runs[first / RUN], keys, front, facet);
+                self.rule.add_run(pass, &mut cells[first / ROW % ROW], first % ROW, keys, front, facet);
             },
         );
     }
@@ -212,7 +221,7 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     fn add_each(
         &self,
         pass: u32,
-        cells: &mut [R::Cell; CELLS],
+        cells: &mut [R::Row; ROW],
         tile: UVec2,
         part: UVec2,
         facet: &Facet,
@@ -224,7 +233,7 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
             let front = self.front.as_ref().map_or(facet.facing == Facing::Front, |front| front(facet, at));
             let texel = (at / f64::from(axis)).as_ivec2() - first;
             let cell = (texel.y * BIN as i32 + texel.x) as usize;
-            self.rule.add(pass, &mut cells[cell], key, front, facet);
+            self.add(pass, cells, cell, key, front, facet);
         });
     }
 }

@@ -1,4 +1,4 @@
-use crate::{DepthRule, Reduction, Stored};
+use crate::{DepthRule, ROW, Reduction, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -13,6 +13,7 @@ pub struct BackFace;
 impl Reduction for BackFace {
     /// The smallest key among those that take part.
     type Cell = f32;
+    type Row = [f32; ROW];
     const EMPTY: f32 = f32::INFINITY;
 
     #[inline(always)]

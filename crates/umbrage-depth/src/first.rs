@@ -1,4 +1,4 @@
-use crate::{DepthRule, Reduction, Stored};
+use crate::{DepthRule, ROW, Reduction, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -9,6 +9,7 @@ pub struct First;
 impl Reduction for First {
     /// The smallest key.
     type Cell = f32;
+    type Row = [f32; ROW];
     const EMPTY: f32 = f32::INFINITY;
 
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, IVec2, UVec2};
 use proptest::prelude::*;
-use umbrage_depth::{BackFace, DepthRule, First, Hit, Midpoint, RUN, SameSurface, Second, Stored};
+use umbrage_depth::{BackFace, DepthRule, First, Hit, Midpoint, RUN, Row, SameSurface, Second, Stored};
 use umbrage_plane::{Affine, Facet, Facing, Kind, View};
 
 /// One surface over a texel.
@@ -337,16 +337,16 @@ fn offers() -> impl Strategy<Value = Vec<Offer>> {
 
 /// A run of cells after all passes: cell by cell, or as a whole and only as long as it is not settled.
 fn run<R: DepthRule>(rule: &R, offers: &[Offer], whole: bool) -> [f32; RUN] {
-    let mut cells = [R::EMPTY; RUN];
+    let (mut cells, mut row) = ([R::EMPTY; RUN], R::Row::all(R::EMPTY));
     for pass in 0..R::PASSES {
-        if whole && pass > 0 && rule.settled(&cells) {
+        if whole && pass > 0 && rule.settled(&[row]) {
             break;
         }
         for &(keys, object, front, sheet) in offers {
             let facing = if front { Facing::Front } else { Facing::Back };
             let facet = Facet { plane: Affine::constant(0.0), facing, triangle: 0, object, sheet };
             if whole {
-                rule.add_run(pass, &mut cells, &keys, front, &facet);
+                rule.add_run(pass, &mut row, 2 * RUN, &keys, front, &facet);
             } else {
                 for (cell, key) in cells.iter_mut().zip(keys) {
                     rule.add(pass, cell, key, front, &facet);
@@ -354,7 +354,8 @@ fn run<R: DepthRule>(rule: &R, offers: &[Offer], whole: bool) -> [f32; RUN] {
             }
         }
     }
-    cells.map(|cell| rule.resolve(cell, &perspective().decode(), AT))
+    let cell = |lane: usize| if whole { row.get(2 * RUN + lane) } else { cells[lane] };
+    std::array::from_fn(|lane| rule.resolve(cell(lane), &perspective().decode(), AT))
 }
 
 proptest! {
