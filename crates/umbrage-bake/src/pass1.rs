@@ -82,6 +82,15 @@ pub(crate) struct Pass<'a, R, F> {
     pub front: Option<F>,
 }
 
+/// The smallest key that a facet may have in a tile.
+#[inline(always)]
+fn nearest(facet: &Facet, tile: UVec2) -> f32 {
+    // Products and sums grow with what they are made of, rounded as well: no place in the tile has a smaller key than all its corners.
+    let (low, high) = ((tile * BIN).as_dvec2(), ((tile + 1) * BIN).as_dvec2());
+    let key = |x: f64, y: f64| facet.plane.at(DVec2::new(x, y)) as f32;
+    key(low.x, low.y).min(key(high.x, low.y)).min(key(low.x, high.y)).min(key(high.x, high.y))
+}
+
 /// Cells of a tile.
 const CELLS: usize = (BIN * BIN) as usize;
 
@@ -151,6 +160,9 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
             if pass > 0 && cells.as_ref().is_none_or(|cells| self.rule.settled(cells.as_slice())) {
                 break;
             }
+            // What lies behind `farthest` all over the tile need not be offered. It is looked for anew whenever twice as much has been offered
+            // as the last time, so that the search takes little time where it finds nothing.
+            let (mut farthest, mut offered, mut due) = (f32::INFINITY, 0, CELLS as u32);
             for part in 0..axis * axis {
                 let part = tile * axis + UVec2::new(part % axis, part / axis);
                 self.masks.tile(
@@ -167,8 +179,12 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
                             self.add_each(pass, cells, tile, part, facet, coverage);
                         } else if count <= FEW {
                             self.add_few(pass, cells, part, facet, coverage);
-                        } else {
+                        } else if farthest == f32::INFINITY || !(nearest(facet, part) > farthest) {
                             self.add_runs(pass, cells, part, facet, coverage);
+                            offered += count;
+                            if offered >= due {
+                                (farthest, due) = (self.rule.farthest(pass, cells), offered.saturating_mul(2));
+                            }
                         }
                     },
                 );

@@ -1,3 +1,4 @@
+use crate::rule::largest;
 use crate::{DepthRule, ROW, Reduction, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
@@ -22,6 +23,11 @@ impl Reduction for BackFace {
             // The smaller without a branch, so that several cells become one vector; of NaN and a number, the number.
             *cell = key.min(*cell);
         }
+    }
+
+    #[inline(always)]
+    fn farthest(&self, _pass: u32, rows: &[[f32; ROW]; ROW]) -> f32 {
+        largest(rows.iter())
     }
 }
 

@@ -1,3 +1,4 @@
+use crate::rule::largest;
 use crate::{DepthRule, ROW, RUN, Reduction, Row, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
@@ -113,6 +114,15 @@ impl Reduction for Midpoint {
         }
         for (column, key) in (first..).zip(keys) {
             (row.first[column], row.second[column]) = two_smallest(row.first[column], row.second[column], *key);
+        }
+    }
+
+    #[inline(always)]
+    fn farthest(&self, pass: u32, rows: &[MidpointRow; ROW]) -> f32 {
+        if pass == 0 && self.same == SameSurface::Depth {
+            largest(rows.iter().map(|row| &row.second))
+        } else {
+            f32::INFINITY
         }
     }
 

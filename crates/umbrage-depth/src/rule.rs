@@ -33,6 +33,13 @@ pub trait Reduction: Sync {
         }
     }
 
+    /// A key such that a fragment with a larger one would change no cell of a tile in this pass: then it may be left out. +∞ unless a reduction
+    /// knows better.
+    #[inline(always)]
+    fn farthest(&self, _pass: u32, _rows: &[Self::Row; ROW]) -> f32 {
+        f32::INFINITY
+    }
+
     /// Whether the passes after the first, all of whose fragments these rows have met, would change no depth made of them: then the passes
     /// may be left out. False unless a reduction knows better.
     #[inline(always)]
@@ -72,6 +79,19 @@ impl<C: Copy + Send> Row<C> for [C; ROW] {
     fn set(&mut self, column: usize, cell: C) {
         self[column] = cell;
     }
+}
+
+/// The largest of a tile's keys, none of which is NaN, by their rows.
+#[inline(always)]
+pub(crate) fn largest<'a>(rows: impl Iterator<Item = &'a [f32; ROW]>) -> f32 {
+    // Column by column, so that rows are compared in vectors.
+    let mut largest = [f32::NEG_INFINITY; ROW];
+    for row in rows {
+        for (largest, key) in largest.iter_mut().zip(row) {
+            *largest = if *key > *largest { *key } else { *largest };
+        }
+    }
+    largest.into_iter().fold(f32::NEG_INFINITY, f32::max)
 }
 
 /// Which of the surfaces behind a texel is stored: a [`Reduction`] whose cell becomes a depth.

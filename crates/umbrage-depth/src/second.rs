@@ -1,3 +1,4 @@
+use crate::rule::largest;
 use crate::{DepthRule, ROW, RUN, Reduction, Row, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
@@ -55,6 +56,11 @@ impl Reduction for Second {
                 row.set(column, two_smallest(row.get(column), *key));
             }
         }
+    }
+
+    #[inline(always)]
+    fn farthest(&self, _pass: u32, rows: &[SecondRow; ROW]) -> f32 {
+        largest(rows.iter().map(|row| &row.second))
     }
 }
 

@@ -2,7 +2,8 @@
 
 use glam::{DVec2, DVec3, IVec2, UVec2};
 use proptest::prelude::*;
-use umbrage_depth::{BackFace, DepthRule, First, Hit, Midpoint, RUN, Row, SameSurface, Second, Stored};
+use std::fmt::Debug;
+use umbrage_depth::{BackFace, DepthRule, First, Hit, Midpoint, ROW, RUN, Row, SameSurface, Second, Stored};
 use umbrage_plane::{Affine, Facet, Facing, Kind, View};
 
 /// One surface over a texel.
@@ -358,6 +359,37 @@ fn run<R: DepthRule>(rule: &R, offers: &[Offer], whole: bool) -> [f32; RUN] {
     std::array::from_fn(|lane| rule.resolve(cell(lane), &perspective().decode(), AT))
 }
 
+/// Offers `last` after the others, made larger than what the rule leaves out.
+fn left_out<R: DepthRule<Cell: PartialEq + Debug>>(
+    rule: &R,
+    offers: &[Offer],
+    last: Offer,
+) -> Result<(), TestCaseError> {
+    for pass in 0..R::PASSES {
+        let mut row = R::Row::all(R::EMPTY);
+        let add = |row: &mut R::Row, pass: u32, (keys, object, front, sheet): Offer| {
+            let facing = if front { Facing::Front } else { Facing::Back };
+            let facet = Facet { plane: Affine::constant(0.0), facing, triangle: 0, object, sheet };
+            (0..ROW / RUN).for_each(|run| rule.add_run(pass, row, run * RUN, &keys, front, &facet));
+        };
+        for before in 0..=pass {
+            offers.iter().for_each(|offer| add(&mut row, before, *offer));
+        }
+        let farthest = rule.farthest(pass, &[row; ROW]);
+        let larger = last.0.map(|key| if key > farthest { key } else { farthest.next_up() });
+        let mut after = row;
+        add(&mut after, pass, (larger, last.1, last.2, last.3));
+        for column in 0..ROW {
+            prop_assert!(
+                farthest == f32::INFINITY || row.get(column) == after.get(column),
+                "{farthest}: {:?}",
+                row.get(column)
+            );
+        }
+    }
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2_000))]
 
@@ -373,6 +405,17 @@ proptest! {
         for same in [SameSurface::Depth, SameSurface::Object, SameSurface::Surface] {
             let rule = Midpoint::default().with_same(same).with_merge(merge);
             law("midpoint", [false, true].map(|whole| run(&rule, &offers, whole)))?;
+        }
+    }
+
+    #[test]
+    fn keys_beyond_the_farthest_change_no_cell(offers in offers(), beyond in keys(), object in 0_u32..3, front in any::<bool>(), sheet in any::<bool>()) {
+        let offer = (beyond, object, front, sheet);
+        left_out(&First, &offers, offer)?;
+        left_out(&Second, &offers, offer)?;
+        left_out(&BackFace, &offers, offer)?;
+        for same in [SameSurface::Depth, SameSurface::Object, SameSurface::Surface] {
+            left_out(&Midpoint::default().with_same(same), &offers, offer)?;
         }
     }
 
