@@ -82,13 +82,13 @@ pub(crate) struct Pass<'a, R, F> {
     pub front: Option<F>,
 }
 
-/// The smallest key that a facet may have in a tile.
+/// Whether every key of a facet in a tile is larger than one.
 #[inline(always)]
-fn nearest(facet: &Facet, tile: UVec2) -> f32 {
+fn lies_behind(facet: &Facet, tile: UVec2, key: f32) -> bool {
     // Products and sums grow with what they are made of, rounded as well: no place in the tile has a smaller key than all its corners.
     let (low, high) = ((tile * BIN).as_dvec2(), ((tile + 1) * BIN).as_dvec2());
-    let key = |x: f64, y: f64| facet.plane.at(DVec2::new(x, y)) as f32;
-    key(low.x, low.y).min(key(high.x, low.y)).min(key(low.x, high.y)).min(key(high.x, high.y))
+    let corners = [low, DVec2::new(high.x, low.y), DVec2::new(low.x, high.y), high];
+    corners.iter().all(|corner| facet.plane.at(*corner) as f32 > key)
 }
 
 /// Cells of a tile.
@@ -179,7 +179,7 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
                             self.add_each(pass, cells, tile, part, facet, coverage);
                         } else if count <= FEW {
                             self.add_few(pass, cells, part, facet, coverage);
-                        } else if farthest == f32::INFINITY || !(nearest(facet, part) > farthest) {
+                        } else if farthest == f32::INFINITY || !lies_behind(facet, part, farthest) {
                             self.add_runs(pass, cells, part, facet, coverage);
                             offered += count;
                             if offered >= due {

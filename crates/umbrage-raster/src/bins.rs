@@ -2,8 +2,7 @@
 
 use crate::blocks::{block_of, blocks, number, place};
 use crate::coverage::{Coverage, Samples};
-use crate::patch::Patch;
-use crate::setup::{Block, NOWHERE, Piece, Reach, SEVERAL, SUBTEXELS, Setup, bounds};
+use crate::setup::{Block, NOWHERE, Patch, Piece, Reach, SEVERAL, SUBTEXELS, Setup, bounds};
 use crate::{BIN, Cull, Stats, Triangle};
 use glam::{IVec2, UVec2};
 use umbrage_plane::{Facet, Sampling, TexelRect, View};

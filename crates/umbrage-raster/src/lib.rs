@@ -45,8 +45,8 @@ mod coverage;
 mod eight;
 mod fragments;
 mod gathered;
-mod patch;
 mod setup;
+mod small;
 mod spans;
 
 pub use bins::Bins;

@@ -1,7 +1,6 @@
 //! From a triangle of the world to the record that tiles are filled from.
 
 use crate::clip::{Clipper, GUARD_TEXELS, NEAR_LIMIT};
-use crate::patch::Patch;
 use crate::{BIN, Cull, Stats, Triangle};
 use glam::{DVec3, IVec2};
 use umbrage_plane::{Affine, Facet, Facing, Sampling, TexelRect, View, vectorized};
@@ -13,6 +12,33 @@ pub(crate) const SUBTEXELS: i32 = 256;
 pub(crate) const SEVERAL: u32 = u32::MAX;
 /// The home of a piece that is known to cover no sample.
 pub(crate) const NOWHERE: u32 = u32::MAX - 1;
+
+/// Side of a patch, in texels.
+pub(crate) const PATCH: i32 = 4;
+
+/// The texels of a tile that a small triangle covers, inside a square of [`PATCH`]² whose upper left texel is the first of the triangle's
+/// bounding box.
+///
+/// Bits 0 to 4 are that texel's column in the tile, bits 8 to 12 its row, and bit 16 + 4·y + x is set where texel (x, y) of the square is covered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Patch(pub u32);
+
+impl Patch {
+    /// Of whatever is not known to be small.
+    pub const NONE: Self = Self(0);
+
+    /// Column and row of the upper left texel in its tile.
+    #[inline(always)]
+    pub fn at(self) -> (u32, u32) {
+        (self.0 & (BIN - 1), self.0 >> 8 & (BIN - 1))
+    }
+
+    /// Bit 4·y + x is set where texel (x, y) is covered.
+    #[inline(always)]
+    pub fn covered(self) -> u32 {
+        self.0 >> 16
+    }
+}
 
 /// What is kept of a triangle: a line of a processor's cache, as pieces are read one here, one there.
 #[derive(Clone, Copy, Debug)]

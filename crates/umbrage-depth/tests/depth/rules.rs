@@ -373,7 +373,9 @@ fn left_out<R: DepthRule<Cell: PartialEq + Debug>>(
             (0..ROW / RUN).for_each(|run| rule.add_run(pass, row, run * RUN, &keys, front, &facet));
         };
         for before in 0..=pass {
-            offers.iter().for_each(|offer| add(&mut row, before, *offer));
+            for offer in offers {
+                add(&mut row, before, *offer);
+            }
         }
         let farthest = rule.farthest(pass, &[row; ROW]);
         let larger = last.0.map(|key| if key > farthest { key } else { farthest.next_up() });

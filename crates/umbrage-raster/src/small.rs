@@ -1,35 +1,8 @@
 //! What small triangles cover, found when they are set up.
 
 use crate::BIN;
-use crate::setup::{NOWHERE, SUBTEXELS};
+use crate::setup::{NOWHERE, PATCH, Patch, SUBTEXELS};
 use umbrage_plane::TexelRect;
-
-/// Side of a patch, in texels.
-pub(crate) const PATCH: i32 = 4;
-
-/// The texels of a tile that a small triangle covers, inside a square of [`PATCH`]² whose upper left texel is the first of the triangle's
-/// bounding box.
-///
-/// Bits 0 to 4 are that texel's column in the tile, bits 8 to 12 its row, and bit 16 + 4·y + x is set where texel (x, y) of the square is covered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Patch(pub u32);
-
-impl Patch {
-    /// Of whatever is not known to be small.
-    pub const NONE: Self = Self(0);
-
-    /// Column and row of the upper left texel in its tile.
-    #[inline(always)]
-    pub fn at(self) -> (u32, u32) {
-        (self.0 & (BIN - 1), self.0 >> 8 & (BIN - 1))
-    }
-
-    /// Bit 4·y + x is set where texel (x, y) is covered.
-    #[inline(always)]
-    pub fn covered(self) -> u32 {
-        self.0 >> 16
-    }
-}
 
 /// What is known of a triangle once it is set up, if it is small.
 pub(crate) struct Small {
