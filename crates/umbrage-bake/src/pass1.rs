@@ -3,7 +3,7 @@ use crate::masks::Masks;
 use glam::{DVec2, IVec2, UVec2};
 use rayon::prelude::*;
 use std::sync::Arc;
-use umbrage_depth::{DepthRule, RUN, Reduction, Stored, Tile, Tiled};
+use umbrage_depth::{DepthRule, ROW, Reduction, Row, Stored, Tile, Tiled};
 use umbrage_plane::{Facet, Facing, TexelRect, View, ViewError, vectorized};
 use umbrage_raster::{BIN, Bins, Coverage, Cull, Stats, each_fragment, each_run};
 
@@ -82,8 +82,20 @@ pub(crate) struct Pass<'a, R, F> {
     pub front: Option<F>,
 }
 
+/// Whether every key of a facet in a tile is larger than one.
+#[inline(always)]
+fn lies_behind(facet: &Facet, tile: UVec2, key: f32) -> bool {
+    // Products and sums grow with what they are made of, rounded as well: no place in the tile has a smaller key than all its corners.
+    let (low, high) = ((tile * BIN).as_dvec2(), ((tile + 1) * BIN).as_dvec2());
+    let corners = [low, DVec2::new(high.x, low.y), DVec2::new(low.x, high.y), high];
+    corners.iter().all(|corner| facet.plane.at(*corner) as f32 > key)
+}
+
 /// Cells of a tile.
 const CELLS: usize = (BIN * BIN) as usize;
+
+/// Fragments that take less time one by one than in runs.
+const FEW: u32 = 4;
 
 impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     /// Reduces and resolves what was drawn with `fine` and `cull`.
@@ -108,23 +120,22 @@ impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     }
 
     #[inline(always)]
-    fn resolve(&self, cells: &[R::Cell; CELLS], tile: UVec2) -> Option<Tile> {
+    fn resolve(&self, rows: &[R::Row; ROW], tile: UVec2) -> Option<Tile> {
         let (sampling, origin) = (self.view.sampling(), (tile * BIN).as_ivec2());
         let nearest = self.view.key(self.view.near()) as f32;
         let mut depths = Box::new([f32::INFINITY; CELLS]);
         self.view.decode().in_loops(
             #[inline(always)]
             |decode| {
-                let rows = cells.chunks_exact(BIN as usize).zip(depths.chunks_exact_mut(BIN as usize));
-                for (y, (cells, depths)) in (0..).zip(rows) {
+                for (y, (cells, depths)) in (0..).zip(rows.iter().zip(depths.as_chunks_mut::<ROW>().0)) {
                     // Nothing but this loop knows the row, so that what the rule holds need not be read again for each texel.
-                    let mut row = [f32::INFINITY; BIN as usize];
-                    for (x, (cell, depth)) in (0..).zip(cells.iter().zip(&mut row)) {
+                    let mut row = [f32::INFINITY; ROW];
+                    for (x, depth) in (0..).zip(&mut row) {
                         let at = sampling.position(origin + IVec2::new(x, y));
                         // Clamped only now: a rule must tell surfaces apart that are all nearer than the near plane.
-                        *depth = self.rule.resolve(*cell, decode, at).max(decode.depth(nearest, at));
+                        *depth = self.rule.resolve(cells.get(x as usize), decode, at).max(decode.depth(nearest, at));
                     }
-                    depths.copy_from_slice(&row);
+                    *depths = row;
                 }
             },
         );
@@ -135,18 +146,23 @@ impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
 impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     /// A tile's cells after all fragments, `None` where there were none, and the number of fragments.
     pub fn cells(&self, bins: &Bins, tile: UVec2) -> (Option<Box<[R::Cell; CELLS]>>, u64) {
-        vectorized!(_ => self.draw(bins, tile))
+        let (cells, fragments) = vectorized!(_ => self.draw(bins, tile));
+        let each = |cells: Box<[R::Row; ROW]>| Box::new(std::array::from_fn(|i| cells[i / ROW].get(i % ROW)));
+        (cells.map(each), fragments)
     }
 
     #[inline(always)]
-    fn draw(&self, bins: &Bins, tile: UVec2) -> (Option<Box<[R::Cell; CELLS]>>, u64) {
+    fn draw(&self, bins: &Bins, tile: UVec2) -> (Option<Box<[R::Row; ROW]>>, u64) {
         let axis = self.fine.size().x / self.view.size().x;
-        let mut cells: Option<Box<[R::Cell; CELLS]>> = None;
+        let mut cells: Option<Box<[R::Row; ROW]>> = None;
         let mut fragments = 0;
         for pass in 0..R::PASSES {
             if pass > 0 && cells.as_ref().is_none_or(|cells| self.rule.settled(cells.as_slice())) {
                 break;
             }
+            // What lies behind `farthest` all over the tile need not be offered. It is looked for anew whenever twice as much has been offered
+            // as the last time, so that the search takes little time where it finds nothing.
+            let (mut farthest, mut offered, mut due) = (f32::INFINITY, 0, CELLS as u32);
             for part in 0..axis * axis {
                 let part = tile * axis + UVec2::new(part % axis, part / axis);
                 self.masks.tile(
@@ -154,14 +170,21 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
                     part,
                     #[inline(always)]
                     |facet, coverage| {
-                        let cells = cells.get_or_insert_with(|| Box::new([R::EMPTY; CELLS]));
+                        let cells = cells.get_or_insert_with(|| Box::new([R::Row::all(R::EMPTY); ROW]));
+                        let count = coverage.count();
                         if pass == 0 {
-                            fragments += u64::from(coverage.count());
+                            fragments += u64::from(count);
                         }
-                        if axis == 1 && self.front.is_none() {
-                            self.add_runs(pass, cells, part, facet, coverage);
-                        } else {
+                        if axis > 1 || self.front.is_some() {
                             self.add_each(pass, cells, tile, part, facet, coverage);
+                        } else if count <= FEW {
+                            self.add_few(pass, cells, part, facet, coverage);
+                        } else if farthest == f32::INFINITY || !lies_behind(facet, part, farthest) {
+                            self.add_runs(pass, cells, part, facet, coverage);
+                            offered += count;
+                            if offered >= due {
+                                (farthest, due) = (self.rule.farthest(pass, cells), offered.saturating_mul(2));
+                            }
                         }
                     },
                 );
@@ -170,11 +193,33 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
         (cells, fragments)
     }
 
+    /// Offers a fragment to one of the cells of a tile.
+    #[inline(always)]
+    fn add(&self, pass: u32, cells: &mut [R::Row; ROW], index: usize, key: f32, front: bool, facet: &Facet) {
+        let (row, column) = (&mut cells[index / ROW], index % ROW);
+        let mut cell = row.get(column);
+        self.rule.add(pass, &mut cell, key, front, facet);
+        row.set(column, cell);
+    }
+
+    /// Offers a facet to the cells of a tile, one by one.
+    #[inline(always)]
+    fn add_few(&self, pass: u32, cells: &mut [R::Row; ROW], tile: UVec2, facet: &Facet, coverage: &Coverage) {
+        let front = facet.facing == Facing::Front;
+        each_fragment(
+            self.fine,
+            (tile * BIN).as_ivec2(),
+            facet,
+            coverage,
+            #[inline(always)]
+            |cell, _, key| self.add(pass, cells, cell, key, front, facet),
+        );
+    }
+
     /// Offers a facet to the cells of a tile, several at a time.
     #[inline(always)]
-    fn add_runs(&self, pass: u32, cells: &mut [R::Cell; CELLS], tile: UVec2, facet: &Facet, coverage: &Coverage) {
+    fn add_runs(&self, pass: u32, cells: &mut [R::Row; ROW], tile: UVec2, facet: &Facet, coverage: &Coverage) {
         let front = facet.facing == Facing::Front;
-        let (runs, _) = cells.as_chunks_mut::<RUN>();
         each_run(
             self.fine,
             (tile * BIN).as_ivec2(),
@@ -183,7 +228,7 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
             #[inline(always)]
             |first, keys| {
                 // Keys of NaN, which are those of the texels that are not covered, change nothing.
-                self.rule.add_run(pass, &mut runs[first / RUN], keys, front, facet);
+                self.rule.add_run(pass, &mut cells[first / ROW % ROW], first % ROW, keys, front, facet);
             },
         );
     }
@@ -192,7 +237,7 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     fn add_each(
         &self,
         pass: u32,
-        cells: &mut [R::Cell; CELLS],
+        cells: &mut [R::Row; ROW],
         tile: UVec2,
         part: UVec2,
         facet: &Facet,
@@ -204,7 +249,7 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
             let front = self.front.as_ref().map_or(facet.facing == Facing::Front, |front| front(facet, at));
             let texel = (at / f64::from(axis)).as_ivec2() - first;
             let cell = (texel.y * BIN as i32 + texel.x) as usize;
-            self.rule.add(pass, &mut cells[cell], key, front, facet);
+            self.add(pass, cells, cell, key, front, facet);
         });
     }
 }

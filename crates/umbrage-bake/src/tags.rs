@@ -3,7 +3,7 @@ use crate::masks::Masks;
 use crate::pass1::{BY_WINDING, Pass};
 use glam::UVec2;
 use rayon::prelude::*;
-use umbrage_depth::{Reduction, TagMap};
+use umbrage_depth::{ROW, Reduction, TagMap};
 use umbrage_plane::{Facet, TexelRect, View};
 use umbrage_raster::{BIN, Bins, Cull};
 
@@ -12,6 +12,7 @@ struct Nearest;
 
 impl Reduction for Nearest {
     type Cell = (f32, u32);
+    type Row = [(f32, u32); ROW];
     const EMPTY: (f32, u32) = (f32::INFINITY, u32::MAX);
 
     #[inline(always)]

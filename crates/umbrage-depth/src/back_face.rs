@@ -1,4 +1,5 @@
-use crate::{DepthRule, Reduction, Stored};
+use crate::rule::largest;
+use crate::{DepthRule, ROW, Reduction, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -13,6 +14,7 @@ pub struct BackFace;
 impl Reduction for BackFace {
     /// The smallest key among those that take part.
     type Cell = f32;
+    type Row = [f32; ROW];
     const EMPTY: f32 = f32::INFINITY;
 
     #[inline(always)]
@@ -21,6 +23,11 @@ impl Reduction for BackFace {
             // The smaller without a branch, so that several cells become one vector; of NaN and a number, the number.
             *cell = key.min(*cell);
         }
+    }
+
+    #[inline(always)]
+    fn farthest(&self, _pass: u32, rows: &[[f32; ROW]; ROW]) -> f32 {
+        largest(rows.iter())
     }
 }
 

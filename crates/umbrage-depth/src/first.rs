@@ -1,4 +1,5 @@
-use crate::{DepthRule, Reduction, Stored};
+use crate::rule::largest;
+use crate::{DepthRule, ROW, Reduction, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -9,12 +10,18 @@ pub struct First;
 impl Reduction for First {
     /// The smallest key.
     type Cell = f32;
+    type Row = [f32; ROW];
     const EMPTY: f32 = f32::INFINITY;
 
     #[inline(always)]
     fn add(&self, _pass: u32, cell: &mut f32, key: f32, _front: bool, _facet: &Facet) {
         // The smaller without a branch, so that several cells become one vector; of NaN and a number, the number.
         *cell = key.min(*cell);
+    }
+
+    #[inline(always)]
+    fn farthest(&self, _pass: u32, rows: &[[f32; ROW]; ROW]) -> f32 {
+        largest(rows.iter())
     }
 }
 

@@ -1,4 +1,5 @@
-use crate::{DepthRule, RUN, Reduction, Stored};
+use crate::rule::largest;
+use crate::{DepthRule, ROW, RUN, Reduction, Row, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -53,8 +54,34 @@ pub struct MidpointCell {
     object: (u32, bool),
 }
 
+/// What [`Midpoint`] keeps of a tile's row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MidpointRow {
+    first: [f32; ROW],
+    second: [f32; ROW],
+    object: [(u32, bool); ROW],
+}
+
+impl Row<MidpointCell> for MidpointRow {
+    #[inline(always)]
+    fn all(MidpointCell { first, second, object }: MidpointCell) -> Self {
+        Self { first: [first; ROW], second: [second; ROW], object: [object; ROW] }
+    }
+
+    #[inline(always)]
+    fn get(&self, column: usize) -> MidpointCell {
+        MidpointCell { first: self.first[column], second: self.second[column], object: self.object[column] }
+    }
+
+    #[inline(always)]
+    fn set(&mut self, column: usize, cell: MidpointCell) {
+        (self.first[column], self.second[column], self.object[column]) = (cell.first, cell.second, cell.object);
+    }
+}
+
 impl Reduction for Midpoint {
     type Cell = MidpointCell;
+    type Row = MidpointRow;
     const EMPTY: MidpointCell = MidpointCell { first: f32::INFINITY, second: f32::INFINITY, object: (u32::MAX, true) };
     const PASSES: u32 = 2;
 
@@ -75,31 +102,38 @@ impl Reduction for Midpoint {
     }
 
     #[inline(always)]
-    fn add_run(&self, pass: u32, cells: &mut [MidpointCell; RUN], keys: &[f32; RUN], front: bool, facet: &Facet) {
+    fn add_run(&self, pass: u32, row: &mut MidpointRow, first: usize, keys: &[f32; RUN], front: bool, facet: &Facet) {
+        let first = first & (ROW - RUN);
         if pass > 0 || self.same != SameSurface::Depth {
-            for (cell, key) in cells.iter_mut().zip(keys) {
-                self.add(pass, cell, *key, front, facet);
+            for (column, key) in (first..).zip(keys) {
+                let mut cell = row.get(column);
+                self.add(pass, &mut cell, *key, front, facet);
+                row.set(column, cell);
             }
             return;
         }
-        let (mut first, mut second) = ([0.0; RUN], [0.0; RUN]);
-        for i in 0..RUN {
-            (first[i], second[i]) = (cells[i].first, cells[i].second);
-        }
-        for i in 0..RUN {
-            (first[i], second[i]) = two_smallest(first[i], second[i], keys[i]);
-        }
-        for i in 0..RUN {
-            (cells[i].first, cells[i].second) = (first[i], second[i]);
+        for (column, key) in (first..).zip(keys) {
+            (row.first[column], row.second[column]) = two_smallest(row.first[column], row.second[column], *key);
         }
     }
 
     #[inline(always)]
-    fn settled(&self, cells: &[MidpointCell]) -> bool {
+    fn farthest(&self, pass: u32, rows: &[MidpointRow; ROW]) -> f32 {
+        if pass == 0 && self.same == SameSurface::Depth {
+            largest(rows.iter().map(|row| &row.second))
+        } else {
+            f32::INFINITY
+        }
+    }
+
+    #[inline(always)]
+    fn settled(&self, rows: &[MidpointRow]) -> bool {
         // Of a negative or missing `merge`, not even equal keys coincide.
         let mut settled = self.same == SameSurface::Depth && self.merge >= 0.0;
-        for cell in cells {
-            settled &= (cell.second == f32::INFINITY) | !self.coincide(cell.first, cell.second);
+        for row in rows {
+            for i in 0..ROW {
+                settled &= (row.second[i] == f32::INFINITY) | !self.coincide(row.first[i], row.second[i]);
+            }
         }
         settled
     }

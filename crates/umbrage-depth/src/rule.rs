@@ -9,6 +9,8 @@ use umbrage_plane::{Affine, Decode, Facet, Facing, View};
 pub trait Reduction: Sync {
     /// What is kept per texel while fragments arrive.
     type Cell: Copy + Send;
+    /// The cells of a tile's row together: `[Self::Cell; ROW]`, unless vector instructions want them in another order.
+    type Row: Row<Self::Cell>;
     /// A texel that no fragment has met.
     const EMPTY: Self::Cell;
     /// How often all fragments are offered: render passes.
@@ -18,25 +20,79 @@ pub trait Reduction: Sync {
     /// of NaN changes nothing.
     fn add(&self, pass: u32, cell: &mut Self::Cell, key: f32, front: bool, facet: &Facet);
 
-    /// [`Reduction::add`] of one facet's fragments to [`RUN`] cells, one each; another way to the same cells where there is one that becomes
-    /// vector instructions more easily.
+    /// [`Reduction::add`] of one facet's fragments to the [`RUN`] cells of a row from `first` on, a multiple of [`RUN`], one each; another way
+    /// to the same cells where there is one that becomes vector instructions more easily.
     #[inline(always)]
-    fn add_run(&self, pass: u32, cells: &mut [Self::Cell; RUN], keys: &[f32; RUN], front: bool, facet: &Facet) {
-        for (cell, key) in cells.iter_mut().zip(keys) {
-            self.add(pass, cell, *key, front, facet);
+    fn add_run(&self, pass: u32, row: &mut Self::Row, first: usize, keys: &[f32; RUN], front: bool, facet: &Facet) {
+        // It is so already; this shows that no index can be out of bounds.
+        let first = first & (ROW - RUN);
+        for (column, key) in (first..).zip(keys) {
+            let mut cell = row.get(column);
+            self.add(pass, &mut cell, *key, front, facet);
+            row.set(column, cell);
         }
     }
 
-    /// Whether the passes after the first, all of whose fragments these cells have met, would change no depth made of them: then the passes
+    /// A key such that a fragment with a larger one would change no cell of a tile in this pass: then it may be left out. +∞ unless a reduction
+    /// knows better.
+    #[inline(always)]
+    fn farthest(&self, _pass: u32, _rows: &[Self::Row; ROW]) -> f32 {
+        f32::INFINITY
+    }
+
+    /// Whether the passes after the first, all of whose fragments these rows have met, would change no depth made of them: then the passes
     /// may be left out. False unless a reduction knows better.
     #[inline(always)]
-    fn settled(&self, _cells: &[Self::Cell]) -> bool {
+    fn settled(&self, _rows: &[Self::Row]) -> bool {
         false
     }
 }
 
 /// Cells that [`Reduction::add_run`] takes at a time.
 pub const RUN: usize = 8;
+
+/// Cells of a [`Row`]: those of a row of a tile.
+pub const ROW: usize = crate::TILE as usize;
+
+/// The cells of a row of a tile: an array of them, or an array of each of their numbers.
+pub trait Row<C>: Copy + Send {
+    /// The same cell for each texel.
+    fn all(cell: C) -> Self;
+    /// The cell of a column of the tile. Panics from [`ROW`] on.
+    fn get(&self, column: usize) -> C;
+    /// Changes the cell of a column of the tile. Panics from [`ROW`] on.
+    fn set(&mut self, column: usize, cell: C);
+}
+
+impl<C: Copy + Send> Row<C> for [C; ROW] {
+    #[inline(always)]
+    fn all(cell: C) -> Self {
+        [cell; ROW]
+    }
+
+    #[inline(always)]
+    fn get(&self, column: usize) -> C {
+        self[column]
+    }
+
+    #[inline(always)]
+    fn set(&mut self, column: usize, cell: C) {
+        self[column] = cell;
+    }
+}
+
+/// The largest of a tile's keys, none of which is NaN, by their rows.
+#[inline(always)]
+pub(crate) fn largest<'a>(rows: impl Iterator<Item = &'a [f32; ROW]>) -> f32 {
+    // Column by column, so that rows are compared in vectors.
+    let mut largest = [f32::NEG_INFINITY; ROW];
+    for row in rows {
+        for (largest, key) in largest.iter_mut().zip(row) {
+            *largest = if *key > *largest { *key } else { *largest };
+        }
+    }
+    largest.into_iter().fold(f32::NEG_INFINITY, f32::max)
+}
 
 /// Which of the surfaces behind a texel is stored: a [`Reduction`] whose cell becomes a depth.
 pub trait DepthRule: Reduction {

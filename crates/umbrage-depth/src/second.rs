@@ -1,4 +1,5 @@
-use crate::{DepthRule, RUN, Reduction, Stored};
+use crate::rule::largest;
+use crate::{DepthRule, ROW, RUN, Reduction, Row, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
@@ -9,9 +10,34 @@ use umbrage_plane::{Decode, Facet};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Second;
 
+/// What [`Second`] keeps of a tile's row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SecondRow {
+    first: [f32; ROW],
+    second: [f32; ROW],
+}
+
+impl Row<[f32; 2]> for SecondRow {
+    #[inline(always)]
+    fn all([first, second]: [f32; 2]) -> Self {
+        Self { first: [first; ROW], second: [second; ROW] }
+    }
+
+    #[inline(always)]
+    fn get(&self, column: usize) -> [f32; 2] {
+        [self.first[column], self.second[column]]
+    }
+
+    #[inline(always)]
+    fn set(&mut self, column: usize, cell: [f32; 2]) {
+        [self.first[column], self.second[column]] = cell;
+    }
+}
+
 impl Reduction for Second {
     /// The two smallest keys, in order.
     type Cell = [f32; 2];
+    type Row = SecondRow;
     const EMPTY: [f32; 2] = [f32::INFINITY; 2];
 
     #[inline(always)]
@@ -23,19 +49,18 @@ impl Reduction for Second {
     }
 
     #[inline(always)]
-    fn add_run(&self, _pass: u32, cells: &mut [[f32; 2]; RUN], keys: &[f32; RUN], _front: bool, facet: &Facet) {
-        let (mut first, mut second) = ([0.0; RUN], [0.0; RUN]);
-        for i in 0..RUN {
-            [first[i], second[i]] = cells[i];
-        }
+    fn add_run(&self, _pass: u32, row: &mut SecondRow, first: usize, keys: &[f32; RUN], _front: bool, facet: &Facet) {
+        let first = first & (ROW - RUN);
         for _ in 0..=u32::from(facet.sheet) {
-            for i in 0..RUN {
-                [first[i], second[i]] = two_smallest([first[i], second[i]], keys[i]);
+            for (column, key) in (first..).zip(keys) {
+                row.set(column, two_smallest(row.get(column), *key));
             }
         }
-        for i in 0..RUN {
-            cells[i] = [first[i], second[i]];
-        }
+    }
+
+    #[inline(always)]
+    fn farthest(&self, _pass: u32, rows: &[SecondRow; ROW]) -> f32 {
+        largest(rows.iter().map(|row| &row.second))
     }
 }
 

@@ -12,37 +12,23 @@ const MOST_ASKED: u32 = 64;
 /// What the first range is united with; never leaves this module.
 const NONE_YET: DepthRange = DepthRange { min: f32::INFINITY, max: f32::NEG_INFINITY };
 
-/// Columns whose ranges are kept apart until the end, so that a row is worked on in vectors.
-const COLUMNS: usize = 8;
-
-/// The smallest and largest depth of every eighth column.
+/// The smallest and largest depth of every column of a tile: apart until the end, so that a row is worked on in vectors.
 struct Extremes {
-    low: [f32; COLUMNS],
-    high: [f32; COLUMNS],
+    low: [f32; TILE as usize],
+    high: [f32; TILE as usize],
 }
 
 impl Extremes {
-    const NONE_YET: Self = Self { low: [NONE_YET.min; COLUMNS], high: [NONE_YET.max; COLUMNS] };
+    const NONE_YET: Self = Self { low: [NONE_YET.min; TILE as usize], high: [NONE_YET.max; TILE as usize] };
 
     /// Makes the depths of a row those that a map [keeps](no_surface::kept), and counts them.
     #[inline(always)]
     fn keep(&mut self, row: &mut [f32]) {
-        let (whole, rest) = row.as_chunks_mut::<COLUMNS>();
-        for depths in whole {
-            for (column, depth) in depths.iter_mut().enumerate() {
-                self.keep_one(column, depth);
-            }
+        for ((depth, low), high) in row.iter_mut().zip(&mut self.low).zip(&mut self.high) {
+            *depth = no_surface::kept(*depth);
+            *low = if *depth < *low { *depth } else { *low };
+            *high = if *depth > *high { *depth } else { *high };
         }
-        for (column, depth) in rest.iter_mut().enumerate() {
-            self.keep_one(column, depth);
-        }
-    }
-
-    #[inline(always)]
-    fn keep_one(&mut self, column: usize, depth: &mut f32) {
-        *depth = no_surface::kept(*depth);
-        self.low[column] = if *depth < self.low[column] { *depth } else { self.low[column] };
-        self.high[column] = if *depth > self.high[column] { *depth } else { self.high[column] };
     }
 
     #[inline(always)]

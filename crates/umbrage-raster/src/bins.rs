@@ -2,7 +2,7 @@
 
 use crate::blocks::{block_of, blocks, number, place};
 use crate::coverage::{Coverage, Samples};
-use crate::setup::{Block, Piece, Reach, SEVERAL, SUBTEXELS, Setup, bounds};
+use crate::setup::{Block, NOWHERE, Patch, Piece, Reach, SEVERAL, SUBTEXELS, Setup, bounds};
 use crate::{BIN, Cull, Stats, Triangle};
 use glam::{IVec2, UVec2};
 use umbrage_plane::{Facet, Sampling, TexelRect, View};
@@ -96,9 +96,13 @@ impl Bins {
         let mut coverage = Coverage::NOTHING;
         for &number in list {
             let (piece, corners) = self.piece(number);
-            if samples.inside(corners, &mut coverage) {
-                sink(&piece.facet(), &coverage);
+            let patch = piece.patch();
+            if patch != Patch::NONE {
+                coverage.set(patch);
+            } else if !samples.inside(corners, &mut coverage) {
+                continue;
             }
+            sink(&piece.facet(), &coverage);
         }
     }
 
@@ -185,10 +189,10 @@ impl Bins {
         for (index, block) in self.blocks.iter().enumerate() {
             for (place, &home) in block.homes.iter().enumerate() {
                 let number = number(index, place);
-                if home == SEVERAL {
-                    self.each_tile(block.corners(&block.pieces[place]), |tile| each(number, tile));
-                } else {
-                    each(number, home as usize);
+                match home {
+                    NOWHERE => {}
+                    SEVERAL => self.each_tile(block.corners(&block.pieces[place]), |tile| each(number, tile)),
+                    _ => each(number, home as usize),
                 }
             }
         }

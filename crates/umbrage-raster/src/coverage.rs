@@ -5,7 +5,7 @@
 //! of its two ends alone, so two polygons that share an edge never both claim a sample on it, and never both leave it.
 
 use crate::BIN;
-use crate::setup::{Reach, SUBTEXELS, bounds};
+use crate::setup::{PATCH, Patch, Reach, SUBTEXELS, bounds};
 use glam::{IVec2, UVec2};
 use std::ops::Range;
 use umbrage_plane::{Sampling, TexelRect};
@@ -32,6 +32,20 @@ impl Coverage {
 
     /// None yet.
     pub(crate) const NOTHING: Self = Self { rows: [0; 32], first: 0, end: 0 };
+
+    /// Makes it that of a patch, some texel of which is covered.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, patch: Patch) {
+        let ((column, row), covered) = (patch.at(), patch.covered());
+        self.rows = [0; 32];
+        for below in 0..PATCH as u32 {
+            // Rows past the tile's last, of which none is covered, come round to others that are not.
+            let bits = covered >> (PATCH as u32 * below) & 0xf;
+            self.rows[(row + below) as usize % 32] = bits << column;
+        }
+        self.first = (row + covered.trailing_zeros() / PATCH as u32) as u8;
+        self.end = (row + covered.ilog2() / PATCH as u32) as u8 + 1;
+    }
 
     /// From rows of which only those of `within` may have a bit set; `None` when none has.
     fn new(rows: [u32; 32], within: Range<i32>) -> Option<Self> {

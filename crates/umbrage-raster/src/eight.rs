@@ -5,9 +5,10 @@
 
 use crate::Triangle;
 use crate::clip::{GUARD_TEXELS, NEAR_LIMIT};
-use crate::setup::{FARTHEST, Making, STEP, nearer, rounded};
+use crate::setup::{FARTHEST, Making, Patch, Reach, STEP, Whole, nearer, rounded};
+use crate::small::Small;
 use glam::{DVec3, IVec2};
-use umbrage_plane::{Affine, Kind, View};
+use umbrage_plane::{Affine, Kind, Sampling, View};
 
 /// Triangles that are worked on together.
 const LANES: usize = 8;
@@ -77,14 +78,23 @@ impl Making<'_> {
         let (eights, rest) = triangles.as_chunks::<LANES>();
         for eight in eights {
             let seen = seen(view, eight);
+            let small = self.small(&seen);
             for (lane, triangle) in eight.iter().enumerate() {
-                if seen.plain[lane] != 0 {
-                    let corner = |corner: usize| IVec2::new(seen.x[corner][lane], seen.y[corner][lane]);
-                    let corners = [corner(0), corner(1), corner(2)];
-                    let plane = Affine { c: seen.plane.x[lane], dx: seen.plane.y[lane], dy: seen.plane.z[lane] };
-                    self.add_whole(triangle, corners, seen.area[lane], plane, seen.before_near[lane] != 0);
-                } else {
+                if seen.plain[lane] == 0 {
                     self.add(triangle);
+                    continue;
+                }
+                let corner = |corner: usize| IVec2::new(seen.x[corner][lane], seen.y[corner][lane]);
+                let whole = Whole {
+                    corners: [corner(0), corner(1), corner(2)],
+                    area: seen.area[lane],
+                    plane: Affine { c: seen.plane.x[lane], dx: seen.plane.y[lane], dy: seen.plane.z[lane] },
+                    before_near: seen.before_near[lane] != 0,
+                };
+                if small.holds[lane] != 0 {
+                    self.add_small(triangle, &whole, Patch(small.patch[lane]), small.home[lane]);
+                } else {
+                    self.add_whole(triangle, &whole);
                 }
             }
         }
@@ -92,6 +102,26 @@ impl Making<'_> {
             self.add(triangle);
         }
     }
+
+    #[inline(always)]
+    fn small(&self, seen: &Seen) -> Smalls {
+        let mut small = Smalls { holds: [0; LANES], home: [0; LANES], patch: [0; LANES] };
+        if matches!(self.setup.reach, Reach::Samples(Sampling::Centre)) {
+            let (window, tiles, x, y) = (self.setup.window, self.setup.tiles_across(), &seen.x, &seen.y);
+            for i in 0..LANES {
+                let one = Small::of([x[0][i], x[1][i], x[2][i]], [y[0][i], y[1][i], y[2][i]], window, tiles);
+                (small.holds[i], small.home[i], small.patch[i]) = (one.holds, one.home, one.patch.0);
+            }
+        }
+        small
+    }
+}
+
+/// [`Small`] of eight triangles.
+struct Smalls {
+    holds: [u32; LANES],
+    home: [u32; LANES],
+    patch: [u32; LANES],
 }
 
 /// Keeps a mask where something else holds as well.

@@ -1,6 +1,6 @@
 use crate::{BIN, Coverage};
 use glam::{DVec2, IVec2};
-use umbrage_plane::{Affine, Facet, Sampling, View};
+use umbrage_plane::{Facet, Sampling, View};
 
 /// Texels of a row that [`each_run`] works on together.
 pub const RUN: usize = 8;
@@ -42,8 +42,23 @@ pub fn each_run(
     coverage: &Coverage,
     mut each: impl FnMut(usize, &[f32; RUN]),
 ) {
-    // Copies, which nothing that `each` writes can change: they are not read again for each run.
-    let (sampling, plane) = (view.sampling(), facet.plane);
+    match view.sampling() {
+        // Named once more, so that nothing in its loops depends on which it is.
+        Sampling::Centre => runs(Sampling::Centre, origin, facet, coverage, &mut each),
+        jittered @ Sampling::Jittered { .. } => runs(jittered, origin, facet, coverage, &mut each),
+    }
+}
+
+#[inline(always)]
+fn runs(
+    sampling: Sampling,
+    origin: IVec2,
+    facet: &Facet,
+    coverage: &Coverage,
+    each: &mut impl FnMut(usize, &[f32; RUN]),
+) {
+    // A copy, which nothing that `each` writes can change: it is not read again for each run.
+    let plane = facet.plane;
     let rows = &coverage.rows[usize::from(coverage.first)..usize::from(coverage.end)];
     let mut touched = rows.iter().fold(0, |all, row| all | row);
     while touched != 0 {
@@ -55,32 +70,15 @@ pub fn each_run(
             if covered == 0 {
                 continue;
             }
-            let texel = origin + IVec2::new((run * RUN) as i32, row as i32);
-            let mut keys = run_keys(sampling, &plane, texel);
+            let mut keys = [0.0; RUN];
+            for (lane, key) in (0..).zip(&mut keys) {
+                let texel = origin + IVec2::new((run * RUN) as i32 + lane, row as i32);
+                *key = plane.at(sampling.position(texel)) as f32;
+            }
             for (lane, key) in keys.iter_mut().enumerate() {
                 *key = if covered & (1 << lane) == 0 { f32::NAN } else { *key };
             }
             each(row * BIN as usize + run * RUN, &keys);
         }
     }
-}
-
-/// The keys of a plane at the samples of texels of a row, of which `texel` is the first.
-#[inline(always)]
-fn run_keys(sampling: Sampling, plane: &Affine, texel: IVec2) -> [f32; RUN] {
-    let mut keys = [0.0; RUN];
-    match sampling {
-        // Named once more, so that no branch on it stays in the loop.
-        Sampling::Centre => {
-            for (lane, key) in (0..).zip(&mut keys) {
-                *key = plane.at(Sampling::Centre.position(texel + IVec2::new(lane, 0))) as f32;
-            }
-        }
-        Sampling::Jittered { .. } => {
-            for (lane, key) in (0..).zip(&mut keys) {
-                *key = plane.at(sampling.position(texel + IVec2::new(lane, 0))) as f32;
-            }
-        }
-    }
-    keys
 }

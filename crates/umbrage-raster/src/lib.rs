@@ -46,6 +46,7 @@ mod eight;
 mod fragments;
 mod gathered;
 mod setup;
+mod small;
 mod spans;
 
 pub use bins::Bins;

@@ -10,6 +10,35 @@ pub(crate) const SUBTEXELS: i32 = 256;
 
 /// The home of a piece that may reach several tiles.
 pub(crate) const SEVERAL: u32 = u32::MAX;
+/// The home of a piece that is known to cover no sample.
+pub(crate) const NOWHERE: u32 = u32::MAX - 1;
+
+/// Side of a patch, in texels.
+pub(crate) const PATCH: i32 = 4;
+
+/// The texels of a tile that a small triangle covers, inside a square of [`PATCH`]² whose upper left texel is the first of the triangle's
+/// bounding box.
+///
+/// Bits 0 to 4 are that texel's column in the tile, bits 8 to 12 its row, and bit 16 + 4·y + x is set where texel (x, y) of the square is covered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Patch(pub u32);
+
+impl Patch {
+    /// Of whatever is not known to be small.
+    pub const NONE: Self = Self(0);
+
+    /// Column and row of the upper left texel in its tile.
+    #[inline(always)]
+    pub fn at(self) -> (u32, u32) {
+        (self.0 & (BIN - 1), self.0 >> 8 & (BIN - 1))
+    }
+
+    /// Bit 4·y + x is set where texel (x, y) is covered.
+    #[inline(always)]
+    pub fn covered(self) -> u32 {
+        self.0 >> 16
+    }
+}
 
 /// What is kept of a triangle: a line of a processor's cache, as pieces are read one here, one there.
 #[derive(Clone, Copy, Debug)]
@@ -18,8 +47,8 @@ pub(crate) struct Piece {
     plane: Affine,
     /// Its corners where it has three.
     corners: [IVec2; 3],
-    /// Index of its first corner among those of its block, where it has more.
-    first: u32,
+    /// Its [`Patch`] where it has three, otherwise the index of its first corner among those of its block.
+    extra: u32,
     triangle: u32,
     object: u32,
     sides: u8,
@@ -39,6 +68,12 @@ impl Piece {
         }
     }
 
+    /// What it covers, where that is known.
+    #[inline(always)]
+    pub fn patch(&self) -> Patch {
+        if self.sides == 3 { Patch(self.extra) } else { Patch::NONE }
+    }
+
     pub fn triangle(&self) -> u32 {
         self.triangle
     }
@@ -51,7 +86,7 @@ pub(crate) struct Block {
     pub pieces: Vec<Piece>,
     /// Corners of those pieces that have more than three, in 1/256 texel.
     corners: Vec<IVec2>,
-    /// The index of the only tile that each piece may reach, or [`SEVERAL`].
+    /// The index of the only tile that each piece may reach, [`SEVERAL`] or [`NOWHERE`].
     pub homes: Vec<u32>,
     pub stats: Stats,
 }
@@ -63,7 +98,7 @@ impl Block {
         if piece.sides == 3 {
             &piece.corners
         } else {
-            &self.corners[piece.first as usize..][..usize::from(piece.sides)]
+            &self.corners[piece.extra as usize..][..usize::from(piece.sides)]
         }
     }
 }
@@ -122,14 +157,13 @@ impl Setup<'_> {
         block
     }
 
-    /// Whether the outside of a polygon is seen, and its home; or why it is not drawn.
+    pub fn tiles_across(&self) -> u32 {
+        self.view.size().x.div_ceil(BIN)
+    }
+
+    /// Whether the outside of a polygon is seen, by twice its area; or why it is not drawn.
     #[inline(always)]
-    fn place(&self, bounds: (IVec2, IVec2), area: i64, sides: usize, sheet: bool) -> Result<(bool, u32), Skip> {
-        let (low, high) = bounds;
-        let touched = TexelRect::new(low >> 8, (high >> 8) + 1);
-        if self.window.intersect(touched).is_empty() {
-            return Err(Skip::Outside);
-        }
+    fn front(&self, area: i64, sides: usize, sheet: bool) -> Result<bool, Skip> {
         // A cut polygon that snapping twisted may have no net area and still cover a sample.
         if area == 0 && sides == 3 {
             return Err(Skip::ZeroArea);
@@ -139,14 +173,36 @@ impl Setup<'_> {
         if !sheet && ((self.cull == Cull::Front && front) || (self.cull == Cull::Back && !front)) {
             return Err(Skip::Culled);
         }
+        Ok(front)
+    }
+
+    /// Whether the outside of a polygon is seen, and its home; or why it is not drawn.
+    #[inline(always)]
+    fn place(&self, bounds: (IVec2, IVec2), area: i64, sides: usize, sheet: bool) -> Result<(bool, u32), Skip> {
+        let (low, high) = bounds;
+        let touched = TexelRect::new(low >> 8, (high >> 8) + 1);
+        if self.window.intersect(touched).is_empty() {
+            return Err(Skip::Outside);
+        }
+        let front = self.front(area, sides, sheet)?;
         let texels = self.window.intersect(self.reach.texels(bounds));
         if texels.is_empty() {
             return Err(Skip::Missed);
         }
         let (first, last) = (texels.min.as_uvec2() / BIN, (texels.max - 1).as_uvec2() / BIN);
-        let home = first.y * self.view.size().x.div_ceil(BIN) + first.x;
+        let home = first.y * self.tiles_across() + first.x;
         Ok((front, if first == last { home } else { SEVERAL }))
     }
+}
+
+/// What is known of a triangle that is not cut.
+pub(crate) struct Whole {
+    /// Snapped.
+    pub corners: [IVec2; 3],
+    /// Twice the area.
+    pub area: i64,
+    pub plane: Affine,
+    pub before_near: bool,
 }
 
 /// A block that is being made.
@@ -180,15 +236,28 @@ impl Making<'_> {
         }
     }
 
-    /// Takes one more triangle that is not cut, of which the snapped corners and the plane are known.
+    /// Takes one more triangle that is not cut.
     #[inline(always)]
-    pub fn add_whole(&mut self, triangle: &Triangle, corners: [IVec2; 3], area: i64, plane: Affine, before_near: bool) {
-        let [a, b, c] = corners;
+    pub fn add_whole(&mut self, triangle: &Triangle, whole: &Whole) {
+        let [a, b, c] = whole.corners;
         let bounds = (a.min(b).min(c), a.max(b).max(c));
-        let made = match self.setup.place(bounds, area, 3, triangle.sheet) {
+        let placed = self.setup.place(bounds, whole.area, 3, triangle.sheet);
+        self.keep_whole(triangle, whole, Patch::NONE, placed);
+    }
+
+    /// [`Making::add_whole`] of a small triangle.
+    #[inline(always)]
+    pub fn add_small(&mut self, triangle: &Triangle, whole: &Whole, patch: Patch, home: u32) {
+        let placed = self.setup.front(whole.area, 3, triangle.sheet).map(|front| (front, home));
+        self.keep_whole(triangle, whole, patch, placed);
+    }
+
+    #[inline(always)]
+    fn keep_whole(&mut self, triangle: &Triangle, whole: &Whole, patch: Patch, placed: Result<(bool, u32), Skip>) {
+        let made = match placed {
             Ok((front, home)) => {
-                self.block.stats.before_near += u64::from(before_near);
-                self.keep(triangle, plane, corners, (0, 3), front, home);
+                self.block.stats.before_near += u64::from(whole.before_near);
+                self.keep(triangle, whole.plane, whole.corners, (patch.0, 3), front, home);
                 Ok(())
             }
             Err(skip) => Err(skip),
@@ -202,13 +271,13 @@ impl Making<'_> {
         triangle: &Triangle,
         plane: Affine,
         corners: [IVec2; 3],
-        (first, sides): (u32, u8),
+        (extra, sides): (u32, u8),
         front: bool,
         home: u32,
     ) {
         let &Triangle { object, sheet, .. } = triangle;
         let index = self.first + self.block.stats.given as u32;
-        self.block.pieces.push(Piece { plane, corners, first, triangle: index, object, sides, front, sheet });
+        self.block.pieces.push(Piece { plane, corners, extra, triangle: index, object, sides, front, sheet });
         self.block.homes.push(home);
     }
 
@@ -252,7 +321,8 @@ impl Making<'_> {
         let plane = plane(view, eye, edges[0].cross(edges[1]), projected.corners);
         self.block.stats.clipped += u64::from(projected.clipped);
         self.block.stats.before_near += u64::from(eye.iter().any(|corner| -corner.z < view.near()));
-        self.keep(triangle, plane, corners, (first as u32, sides as u8), front, home);
+        let extra = if sides == 3 { Patch::NONE.0 } else { first as u32 };
+        self.keep(triangle, plane, corners, (extra, sides as u8), front, home);
         Ok(())
     }
 }

@@ -1,9 +1,9 @@
 //! One depth per texel.
 
-use crate::shapes::{ball, cuboid};
+use crate::shapes::{ball, cuboid, quad};
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
 use umbrage_bake::bake;
-use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Midpoint, Raw, Second, Stored, Tiled};
+use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Midpoint, Raw, SameSurface, Second, Stored, Tiled};
 use umbrage_plane::{Facing, Kind, Sampling, SurfacePoint, TexelRect, View};
 use umbrage_raster::{Bins, Cull, Triangle};
 
@@ -107,6 +107,43 @@ fn x2_x3_tiles_and_threads_store_what_one_texel_at_a_time_stores() {
     law("back face", &BackFace, Cull::None);
     law("midpoint", &Midpoint::default(), Cull::None);
     law("first of the far sides", &First, Cull::Front);
+}
+
+#[track_caller]
+fn same<R: DepthRule>(view: &View, triangles: &[Triangle], rule: &R) {
+    let baked = bake(view, triangles.iter().copied(), rule, Cull::None);
+    assert!(Raw::from(&*baked.map) == naive(view, triangles, rule, Cull::None, |_, _| true), "{:?}", rule.stored());
+}
+
+#[test]
+fn x3_what_lies_behind_whole_tiles_is_left_out_without_a_trace() {
+    // Large sheets, level and tilted so that some reach through others, each twice at one place, with small solids among them.
+    let mut layers: Vec<Vec<Triangle>> = Vec::new();
+    for (object, (depth, tilt)) in
+        (0..).zip([(4.0, 0.0), (5.0, 0.3), (5.2, -0.3), (7.0, 0.0), (9.0, 0.5), (12.0, -0.1)])
+    {
+        let corner = |x: f32, y: f32| Vec3::new(x, y, -depth + tilt * (x + y));
+        let corners = [corner(-40.0, -40.0), corner(40.0, -40.0), corner(40.0, 40.0), corner(-40.0, 40.0)];
+        let sheet = quad(corners, object, object % 3 == 1);
+        layers.push([sheet, sheet].concat());
+        let low = Vec3::new(object as f32 - 3.0, -1.0, -depth - 0.4);
+        layers.push(cuboid(low, low + 0.7, 10 + object, false));
+    }
+    let nearest_first = layers.concat();
+    layers.reverse();
+    let size = UVec2::new(96, 70);
+    let flat = View::orthographic(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 5.0, 1.0, 60.0, size).unwrap();
+    let lamp = View::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 0.5, 1.0, 60.0, size).unwrap();
+    for view in [flat, lamp, lamp.with_sampling(Sampling::Jittered { seed: 5 }), flat.with_kind(Kind::Screen)] {
+        for triangles in [&nearest_first, &layers.concat()] {
+            same(&view, triangles, &First);
+            same(&view, triangles, &Second);
+            same(&view, triangles, &BackFace);
+            for surface in [SameSurface::Depth, SameSurface::Object, SameSurface::Surface] {
+                same(&view, triangles, &Midpoint::default().with_same(surface));
+            }
+        }
+    }
 }
 
 #[test]

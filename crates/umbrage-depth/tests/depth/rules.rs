@@ -2,7 +2,8 @@
 
 use glam::{DVec2, DVec3, IVec2, UVec2};
 use proptest::prelude::*;
-use umbrage_depth::{BackFace, DepthRule, First, Hit, Midpoint, RUN, SameSurface, Second, Stored};
+use std::fmt::Debug;
+use umbrage_depth::{BackFace, DepthRule, First, Hit, Midpoint, ROW, RUN, Row, SameSurface, Second, Stored};
 use umbrage_plane::{Affine, Facet, Facing, Kind, View};
 
 /// One surface over a texel.
@@ -337,16 +338,16 @@ fn offers() -> impl Strategy<Value = Vec<Offer>> {
 
 /// A run of cells after all passes: cell by cell, or as a whole and only as long as it is not settled.
 fn run<R: DepthRule>(rule: &R, offers: &[Offer], whole: bool) -> [f32; RUN] {
-    let mut cells = [R::EMPTY; RUN];
+    let (mut cells, mut row) = ([R::EMPTY; RUN], R::Row::all(R::EMPTY));
     for pass in 0..R::PASSES {
-        if whole && pass > 0 && rule.settled(&cells) {
+        if whole && pass > 0 && rule.settled(&[row]) {
             break;
         }
         for &(keys, object, front, sheet) in offers {
             let facing = if front { Facing::Front } else { Facing::Back };
             let facet = Facet { plane: Affine::constant(0.0), facing, triangle: 0, object, sheet };
             if whole {
-                rule.add_run(pass, &mut cells, &keys, front, &facet);
+                rule.add_run(pass, &mut row, 2 * RUN, &keys, front, &facet);
             } else {
                 for (cell, key) in cells.iter_mut().zip(keys) {
                     rule.add(pass, cell, key, front, &facet);
@@ -354,7 +355,41 @@ fn run<R: DepthRule>(rule: &R, offers: &[Offer], whole: bool) -> [f32; RUN] {
             }
         }
     }
-    cells.map(|cell| rule.resolve(cell, &perspective().decode(), AT))
+    let cell = |lane: usize| if whole { row.get(2 * RUN + lane) } else { cells[lane] };
+    std::array::from_fn(|lane| rule.resolve(cell(lane), &perspective().decode(), AT))
+}
+
+/// Offers `last` after the others, made larger than what the rule leaves out.
+fn left_out<R: DepthRule<Cell: PartialEq + Debug>>(
+    rule: &R,
+    offers: &[Offer],
+    last: Offer,
+) -> Result<(), TestCaseError> {
+    for pass in 0..R::PASSES {
+        let mut row = R::Row::all(R::EMPTY);
+        let add = |row: &mut R::Row, pass: u32, (keys, object, front, sheet): Offer| {
+            let facing = if front { Facing::Front } else { Facing::Back };
+            let facet = Facet { plane: Affine::constant(0.0), facing, triangle: 0, object, sheet };
+            (0..ROW / RUN).for_each(|run| rule.add_run(pass, row, run * RUN, &keys, front, &facet));
+        };
+        for before in 0..=pass {
+            for offer in offers {
+                add(&mut row, before, *offer);
+            }
+        }
+        let farthest = rule.farthest(pass, &[row; ROW]);
+        let larger = last.0.map(|key| if key > farthest { key } else { farthest.next_up() });
+        let mut after = row;
+        add(&mut after, pass, (larger, last.1, last.2, last.3));
+        for column in 0..ROW {
+            prop_assert!(
+                farthest == f32::INFINITY || row.get(column) == after.get(column),
+                "{farthest}: {:?}",
+                row.get(column)
+            );
+        }
+    }
+    Ok(())
 }
 
 proptest! {
@@ -372,6 +407,17 @@ proptest! {
         for same in [SameSurface::Depth, SameSurface::Object, SameSurface::Surface] {
             let rule = Midpoint::default().with_same(same).with_merge(merge);
             law("midpoint", [false, true].map(|whole| run(&rule, &offers, whole)))?;
+        }
+    }
+
+    #[test]
+    fn keys_beyond_the_farthest_change_no_cell(offers in offers(), beyond in keys(), object in 0_u32..3, front in any::<bool>(), sheet in any::<bool>()) {
+        let offer = (beyond, object, front, sheet);
+        left_out(&First, &offers, offer)?;
+        left_out(&Second, &offers, offer)?;
+        left_out(&BackFace, &offers, offer)?;
+        for same in [SameSurface::Depth, SameSurface::Object, SameSurface::Surface] {
+            left_out(&Midpoint::default().with_same(same), &offers, offer)?;
         }
     }
 

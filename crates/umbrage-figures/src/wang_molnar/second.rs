@@ -8,7 +8,7 @@ use crate::stage::slices::{self, Slice, cut, disc, rectangle, stored, turned};
 use glam::{DVec2, DVec3, UVec2, Vec3};
 use std::sync::Arc;
 use umbrage_bake::bake;
-use umbrage_depth::{BackFace, DepthMap, DepthRule, First, Raw, Reduction, Second, Stored, Tiled};
+use umbrage_depth::{BackFace, DepthMap, DepthRule, First, ROW, Raw, Reduction, Second, Stored, Tiled};
 use umbrage_oracle::metrics;
 use umbrage_plane::{Decode, Facet, SurfacePoint};
 use umbrage_raster::Cull;
@@ -166,6 +166,7 @@ struct Third;
 
 impl Reduction for Third {
     type Cell = [f32; 3];
+    type Row = [[f32; 3]; ROW];
     const EMPTY: [f32; 3] = [f32::INFINITY; 3];
     fn add(&self, _pass: u32, cell: &mut [f32; 3], key: f32, _front: bool, _facet: &Facet) {
         let mut key = key;
