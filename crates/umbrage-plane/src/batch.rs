@@ -3,39 +3,12 @@
 
 #![expect(clippy::needless_range_loop, reason = "one index names a lane in several arrays")]
 
+use crate::lanes::{LANES, Lanes, Lanes3};
 use crate::{Footprint, Kind, Place, Projection, Receiver, SurfacePoint, View, vectorized};
-use glam::{DMat4, DVec2, DVec3, Vec2, Vec3};
+use glam::{DMat4, DVec2, Vec2, Vec3};
 use std::array::from_fn;
 
-/// Points that are worked on together.
-const LANES: usize = 8;
-
-type Lanes = [f64; LANES];
-
-/// Eight vectors, coordinate by coordinate.
-#[derive(Clone, Copy)]
-struct Lanes3 {
-    x: Lanes,
-    y: Lanes,
-    z: Lanes,
-}
-
 impl Lanes3 {
-    #[inline(always)]
-    fn gathered(of: impl Fn(usize) -> DVec3) -> Self {
-        let mut all = Self { x: [0.0; LANES], y: [0.0; LANES], z: [0.0; LANES] };
-        for i in 0..LANES {
-            let one = of(i);
-            (all.x[i], all.y[i], all.z[i]) = (one.x, one.y, one.z);
-        }
-        all
-    }
-
-    #[inline(always)]
-    fn at(&self, lane: usize) -> DVec3 {
-        DVec3::new(self.x[lane], self.y[lane], self.z[lane])
-    }
-
     /// [`DMat4::transform_vector3`] of each.
     #[inline(always)]
     fn turned(&self, by: &DMat4) -> Self {
@@ -104,8 +77,8 @@ impl View {
 
     #[inline(always)]
     fn eight(&self, at: &[SurfacePoint; LANES], out: &mut [Result<Receiver, Place>; LANES]) {
-        let eye = Lanes3::gathered(|i| at[i].position).turned(&self.world_to_eye).plus(&self.origin());
-        let normal = Lanes3::gathered(|i| at[i].normal.as_dvec3()).turned(&self.world_to_eye);
+        let eye = Lanes3::of(|i| at[i].position).turned(&self.world_to_eye).plus(&self.origin());
+        let normal = Lanes3::of(|i| at[i].normal.as_dvec3()).turned(&self.world_to_eye);
         let Seen { facing, slope, depth, texel_world } = self.seen(&eye, &normal);
         let texels = self.texels(&eye);
         let (corners, in_front) = self.corners(at, &eye);
@@ -142,7 +115,7 @@ impl View {
     /// The shift of world to eye space, for each.
     #[inline(always)]
     fn origin(&self) -> Lanes3 {
-        Lanes3::gathered(|_| self.world_to_eye.w_axis.truncate())
+        Lanes3::of(|_| self.world_to_eye.w_axis.truncate())
     }
 
     /// [`View::eye_to_texel`] of each.
@@ -165,7 +138,7 @@ impl View {
             return (images, in_front);
         }
         for (corner, images) in images.iter_mut().enumerate() {
-            let offset = Lanes3::gathered(|i| at[i].corner_offsets[corner].as_dvec3());
+            let offset = Lanes3::of(|i| at[i].corner_offsets[corner].as_dvec3());
             let place = eye.plus(&offset.turned(&self.world_to_eye));
             if self.is_perspective() {
                 for i in 0..LANES {

@@ -8,39 +8,10 @@ use crate::clip::{GUARD_TEXELS, NEAR_LIMIT};
 use crate::setup::{FARTHEST, Making, Patch, Reach, STEP, Whole, nearer, rounded};
 use crate::small::Small;
 use glam::{DVec3, IVec2};
-use umbrage_plane::{Affine, Kind, Sampling, View};
+use umbrage_plane::{Affine, Kind, LANES, Lanes3, Sampling, View};
 
-/// Triangles that are worked on together.
-const LANES: usize = 8;
-
-type Lanes = [f64; LANES];
 /// All bits set where something holds, which vector instructions compare to.
 type Mask = [u64; LANES];
-
-/// Eight vectors, coordinate by coordinate.
-#[derive(Clone, Copy)]
-struct Lanes3 {
-    x: Lanes,
-    y: Lanes,
-    z: Lanes,
-}
-
-impl Lanes3 {
-    #[inline(always)]
-    fn of(each: impl Fn(usize) -> DVec3) -> Self {
-        let mut all = Self { x: [0.0; LANES], y: [0.0; LANES], z: [0.0; LANES] };
-        for i in 0..LANES {
-            let one = each(i);
-            (all.x[i], all.y[i], all.z[i]) = (one.x, one.y, one.z);
-        }
-        all
-    }
-
-    #[inline(always)]
-    fn at(&self, lane: usize) -> DVec3 {
-        DVec3::new(self.x[lane], self.y[lane], self.z[lane])
-    }
-}
 
 /// What a view makes of eight triangles.
 struct Seen {
