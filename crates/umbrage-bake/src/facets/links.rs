@@ -6,7 +6,7 @@ use super::surface::Surface;
 use glam::IVec2;
 use std::ops::Range;
 use umbrage_depth::FacetBlock;
-use umbrage_plane::TexelRect;
+use umbrage_plane::{TexelRect, vectorized};
 use umbrage_raster::{BIN, Lines};
 
 const DIRECTIONS: [Lines; 2] = [Lines::Rows, Lines::Columns];
@@ -141,6 +141,11 @@ impl Links<'_> {
 
     /// The nearest keys at the slots of all links, link by link.
     fn nearest(&self, way: &Way) -> Vec<f64> {
+        vectorized!(_ => self.found(way))
+    }
+
+    #[inline(always)]
+    fn found(&self, way: &Way) -> Vec<f64> {
         let grid = self.samples.grid;
         let (lines, slots, side) = (way.lines, self.slots as usize, grid.parts * grid.side());
         let mut keys = vec![f64::INFINITY; way.len() * slots];

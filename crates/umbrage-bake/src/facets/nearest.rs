@@ -4,7 +4,7 @@ use super::casters::Casters;
 use glam::{DVec2, IVec2};
 use std::ops::Range;
 use umbrage_depth::NO_FACET;
-use umbrage_plane::{Affine, TexelRect};
+use umbrage_plane::{Affine, TexelRect, vectorized};
 use umbrage_raster::Lines;
 
 /// 1/256 texel: what corners are snapped to, and all places here are multiples of.
@@ -149,6 +149,17 @@ pub(super) struct Samples {
 impl Samples {
     /// Of those parts of a region that are `asked`; parts come row by row. Planes that are nearest somewhere are added to `planes`.
     pub fn of(
+        casters: &Casters<'_>,
+        region: TexelRect,
+        grid: Grid,
+        asked: impl Fn(usize) -> bool,
+        planes: &mut Planes,
+    ) -> Self {
+        vectorized!(_ => Self::found(casters, region, grid, asked, planes))
+    }
+
+    #[inline(always)]
+    fn found(
         casters: &Casters<'_>,
         region: TexelRect,
         grid: Grid,
