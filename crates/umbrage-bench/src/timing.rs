@@ -21,7 +21,7 @@ pub fn wall_seconds(run: &mut dyn FnMut()) -> f64 {
 /// The median of so many runs of each way, all ways run in turn. `clock` measures one run.
 ///
 /// # Panics
-/// When there is no round.
+/// If `rounds` is 0.
 pub fn medians(rounds: usize, clock: fn(&mut dyn FnMut()) -> f64, ways: &mut [&mut dyn FnMut()]) -> Vec<f64> {
     let mut taken = vec![Vec::with_capacity(rounds); ways.len()];
     for _ in 0..rounds {
