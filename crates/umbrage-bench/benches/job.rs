@@ -1,4 +1,4 @@
-//! The whole job: a map and a million look-ups beside a tree and a million rays, or sixteen. Percentage closer is no area light.
+//! The whole job: a map and a million look-ups beside a tree and a million rays, or sixteen. Percentage-closer filtering does not model an area light.
 //!
 //! Ids: `job/<way>/<triangles>`, elements are receivers; rays go through a tree of two or of eight children. Maps have 1024² texels. One thread.
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};

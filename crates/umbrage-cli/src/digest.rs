@@ -43,7 +43,7 @@ pub fn of_scene(source: &str, max_memory: Option<u64>) -> anyhow::Result<String>
     let mut digest = Digest::new().with(&bytes);
     for file in beside(&bytes) {
         let path = path.parent().unwrap_or(Path::new("")).join(&file);
-        // The reader of scenes does without some files, so that one which is not there is no fault here either.
+        // A scene can be read without some of its files, so a missing one is not an error here either.
         let there = path.is_file().then(|| read(&path, max_memory)).transpose()?;
         digest = digest.with(file.to_string_lossy().as_bytes()).with(&there.unwrap_or_default());
     }

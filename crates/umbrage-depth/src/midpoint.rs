@@ -48,7 +48,7 @@ pub struct MidpointCell {
     /// The smallest key.
     first: f32,
     /// The smallest key among other surfaces. Of [`SameSurface::Depth`] it is the second smallest key of all before a second pass has found
-    /// another: where that coincides with `first`, there is no other surface yet.
+    /// another; if it coincides with `first`, no other surface has been found yet.
     second: f32,
     /// The smallest object id at `first`, and whether its outside is seen there; [`SameSurface::Depth`] leaves it alone.
     object: (u32, bool),

@@ -100,7 +100,7 @@ fn capital(text: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-const WIDTH: f64 = 1000.0;
+const WIDTH: f64 = 1060.0;
 const LEFT: f64 = 400.0;
 const RIGHT: f64 = 960.0;
 const BAR: f64 = 9.0;

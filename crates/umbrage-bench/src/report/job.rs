@@ -1,5 +1,5 @@
-//! Rows of the whole job: a map and a million look-ups beside rays, the tree's build included. Percentage closer is no area light:
-//! the sixteen rays go to a disc, and both means must agree, but not every region. One ray is traced through either tree, and the
+//! Rows of the whole job: a map and a million look-ups beside rays, the tree's build included. Percentage-closer filtering does not model
+//! an area light: the sixteen rays go to a disc, and both means must agree, but not every region. One ray is traced through either tree, and the
 //! one that takes less time for the whole job counts.
 
 use super::rows::{Goal, Row, Settings};

@@ -35,8 +35,8 @@ pub(super) struct Voters {
     there: Lanes,
     /// What it must pass by.
     passed: Lanes,
-    /// Whether it calls all places of the region dark, or lit. It calls some dark and some lit where neither is true; where both are,
-    /// a number was NaN or a plane grazes the other.
+    /// Whether it calls all places of the region dark, or all of them lit. Neither is true where it calls some dark and some lit, and where
+    /// a number is NaN; both never are.
     all_dark: [bool; LANES],
     all_lit: [bool; LANES],
 }
@@ -102,8 +102,8 @@ impl Voters {
 pub(super) struct Said {
     lit: bool,
     dark: bool,
-    /// One of them says neither of all of it.
-    both: bool,
+    /// One of them calls some places dark and some lit.
+    mixed: bool,
 }
 
 impl Said {
@@ -113,14 +113,14 @@ impl Said {
         for (dark, lit) in voters.all_dark.iter().zip(&voters.all_lit) {
             self.dark |= *dark && !lit;
             self.lit |= *lit && !dark;
-            self.both |= dark == lit;
+            self.mixed |= dark == lit;
         }
     }
 
     /// Whether no two disagree so far.
     #[inline(always)]
     pub fn can_agree(self) -> bool {
-        !(self.both || self.dark && self.lit)
+        !(self.mixed || self.dark && self.lit)
     }
 
     /// The answer of all, where there is one.
