@@ -6,6 +6,7 @@
 //! | function | makes | source |
 //! |---|---|---|
 //! | [`bake`] | one depth per texel, by any [`DepthRule`](umbrage_depth::DepthRule) | Williams 1978, Reeves 1987, Wang & Molnar 1994 |
+//! | [`bake_streamed`] | the same, row of tiles by row of tiles, of more triangles or a larger map than memory holds | |
 //! | [`bake_multi`] | the same from several samples per texel | Woo 1992 |
 //! | [`bake_by_normals`] | the same, with sides seen by interpolated normals | Wang & Molnar 1994 |
 //! | [`bake_deep`] | all surfaces of a texel, and what passes them | Burley 2006 |
@@ -52,6 +53,8 @@ mod moments;
 mod normals;
 mod pass1;
 mod rays;
+mod streamed;
+mod streaming;
 mod tags;
 
 pub use caster::Caster;
@@ -62,4 +65,6 @@ pub use masks::Masks;
 pub use moments::mix_moments;
 pub use normals::bake_by_normals;
 pub use pass1::{Baked, advised_map_sizes, bake, bake_multi};
+pub use streamed::{Streamed, bake_streamed};
+pub use streaming::Streaming;
 pub use tags::bake_tags;

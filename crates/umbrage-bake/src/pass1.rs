@@ -82,6 +82,14 @@ pub(crate) struct Pass<'a, R, F> {
     pub front: Option<F>,
 }
 
+/// The surface that a rule stores of what was drawn.
+pub(crate) fn stored(rule: &impl DepthRule, cull: Cull) -> Stored {
+    match (rule.stored(), cull) {
+        (Stored::First, Cull::Front) => Stored::BackFace,
+        (stored, _) => stored,
+    }
+}
+
 /// Whether every key of a facet in a tile is larger than one.
 #[inline(always)]
 fn lies_behind(facet: &Facet, tile: UVec2, key: f32) -> bool {
@@ -93,6 +101,9 @@ fn lies_behind(facet: &Facet, tile: UVec2, key: f32) -> bool {
 
 /// Cells of a tile.
 const CELLS: usize = (BIN * BIN) as usize;
+
+/// What a reduction keeps of a tile.
+pub(crate) type Cells<R> = Box<[<R as Reduction>::Row; ROW]>;
 
 /// Fragments that take less time one by one than in runs.
 const FEW: u32 = 4;
@@ -111,16 +122,13 @@ impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
                 })
             })
             .unzip();
-        let stored = match (self.rule.stored(), cull) {
-            (Stored::First, Cull::Front) => Stored::BackFace,
-            (stored, _) => stored,
-        };
-        let map = Arc::new(Tiled::from_tiles(*self.view, made).with_stored(stored));
+        let map = Arc::new(Tiled::from_tiles(*self.view, made).with_stored(stored(self.rule, cull)));
         Baked { map, stats: bins.stats(), fragments: fragments.iter().sum() }
     }
 
+    /// The tile that cells become; `None` where no surface is among them.
     #[inline(always)]
-    fn resolve(&self, rows: &[R::Row; ROW], tile: UVec2) -> Option<Tile> {
+    pub fn resolve(&self, rows: &[R::Row; ROW], tile: UVec2) -> Option<Tile> {
         let (sampling, origin) = (self.view.sampling(), (tile * BIN).as_ivec2());
         let nearest = self.view.key(self.view.near()) as f32;
         let mut depths = Box::new([f32::INFINITY; CELLS]);
@@ -152,45 +160,59 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     }
 
     #[inline(always)]
-    fn draw(&self, bins: &Bins, tile: UVec2) -> (Option<Box<[R::Row; ROW]>>, u64) {
-        let axis = self.fine.size().x / self.view.size().x;
-        let mut cells: Option<Box<[R::Row; ROW]>> = None;
-        let mut fragments = 0;
+    fn draw(&self, bins: &Bins, tile: UVec2) -> (Option<Cells<R>>, u64) {
+        let (mut cells, mut fragments) = (None, 0);
         for pass in 0..R::PASSES {
-            if pass > 0 && cells.as_ref().is_none_or(|cells| self.rule.settled(cells.as_slice())) {
+            if pass > 0 && !self.wants_more(&cells) {
                 break;
             }
-            // What lies behind `farthest` all over the tile need not be offered. It is looked for anew whenever twice as much has been offered
-            // as the last time, so that the search takes little time where it finds nothing.
-            let (mut farthest, mut offered, mut due) = (f32::INFINITY, 0, CELLS as u32);
-            for part in 0..axis * axis {
-                let part = tile * axis + UVec2::new(part % axis, part / axis);
-                self.masks.tile(
-                    bins,
-                    part,
-                    #[inline(always)]
-                    |facet, coverage| {
-                        let cells = cells.get_or_insert_with(|| Box::new([R::Row::all(R::EMPTY); ROW]));
-                        let count = coverage.count();
-                        if pass == 0 {
-                            fragments += u64::from(count);
-                        }
-                        if axis > 1 || self.front.is_some() {
-                            self.add_each(pass, cells, tile, part, facet, coverage);
-                        } else if count <= FEW {
-                            self.add_few(pass, cells, part, facet, coverage);
-                        } else if farthest == f32::INFINITY || !lies_behind(facet, part, farthest) {
-                            self.add_runs(pass, cells, part, facet, coverage);
-                            offered += count;
-                            if offered >= due {
-                                (farthest, due) = (self.rule.farthest(pass, cells), offered.saturating_mul(2));
-                            }
-                        }
-                    },
-                );
+            let offered = self.draw_once(pass, bins, tile, &mut cells);
+            if pass == 0 {
+                fragments = offered;
             }
         }
         (cells, fragments)
+    }
+
+    /// Whether a pass after the first may change a depth of a tile.
+    #[inline(always)]
+    pub fn wants_more(&self, cells: &Option<Cells<R>>) -> bool {
+        cells.as_ref().is_some_and(|cells| !self.rule.settled(cells.as_slice()))
+    }
+
+    /// One pass over what bins hold of a tile; the number of its fragments.
+    #[inline(always)]
+    pub fn draw_once(&self, pass: u32, bins: &Bins, tile: UVec2, cells: &mut Option<Cells<R>>) -> u64 {
+        let axis = self.fine.size().x / self.view.size().x;
+        let mut fragments = 0;
+        // What lies behind `farthest` all over the tile need not be offered. It is looked for anew whenever twice as much has been offered
+        // as the last time, so that the search takes little time where it finds nothing.
+        let (mut farthest, mut offered, mut due) = (f32::INFINITY, 0, CELLS as u32);
+        for part in 0..axis * axis {
+            let part = tile * axis + UVec2::new(part % axis, part / axis);
+            self.masks.tile(
+                bins,
+                part,
+                #[inline(always)]
+                |facet, coverage| {
+                    let cells = cells.get_or_insert_with(|| Box::new([R::Row::all(R::EMPTY); ROW]));
+                    let count = coverage.count();
+                    fragments += u64::from(count);
+                    if axis > 1 || self.front.is_some() {
+                        self.add_each(pass, cells, tile, part, facet, coverage);
+                    } else if count <= FEW {
+                        self.add_few(pass, cells, part, facet, coverage);
+                    } else if farthest == f32::INFINITY || !lies_behind(facet, part, farthest) {
+                        self.add_runs(pass, cells, part, facet, coverage);
+                        offered += count;
+                        if offered >= due {
+                            (farthest, due) = (self.rule.farthest(pass, cells), offered.saturating_mul(2));
+                        }
+                    }
+                },
+            );
+        }
+        fragments
     }
 
     /// Offers a fragment to one of the cells of a tile.

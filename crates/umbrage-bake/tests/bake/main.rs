@@ -7,3 +7,4 @@ mod masks;
 mod normals;
 mod pass1;
 mod shapes;
+mod streamed;
