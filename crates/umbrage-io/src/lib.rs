@@ -6,6 +6,7 @@
 //!   scan lines that other tools composite: channels `Z` and `A` or `AR`, `AG`, `AB`.
 //! * [`write_facet_map`] and [`read_facet_map`]: a map of facets, bit for bit, as a shadow map that other tools read, with planes, indices,
 //!   blocks and links in a second part.
+//! * [`write_shadow_map_by_rows`]: the file of a map that is larger than memory, row of tiles by row of tiles.
 //! * [`Paged`]: a shadow map's file with only the tiles looked at last in memory (R87-20).
 //! * [`write_png`], [`write_png_grey`], [`write_exr`]: pictures from linear light; [`read_png`] for comparing.
 //! * [`encode_png_values`], [`encode_exr_values`]: a quantity for each pixel, such as a fraction in shadow, without a curve.
@@ -60,5 +61,8 @@ pub use picture::{
     Codes, decode_png, encode_exr, encode_exr_values, encode_png, encode_png_grey, encode_png_values, linear_to_srgb8,
     read_png, replicate, write_exr, write_png, write_png_grey,
 };
-pub use shadow_map::{decode_shadow_map, encode_shadow_map, read_shadow_map, read_shadow_map_within, write_shadow_map};
+pub use shadow_map::{
+    TileRows, decode_shadow_map, encode_shadow_map, read_shadow_map, read_shadow_map_within, write_shadow_map,
+    write_shadow_map_by_rows,
+};
 pub use write_file::{write_atomic, write_bytes};

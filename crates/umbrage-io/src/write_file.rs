@@ -2,7 +2,7 @@
 
 use crate::error::{IoError, system};
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// Writes a file as a whole or not at all: into a temporary file in the same folder, flushed to the disk, then renamed over
@@ -12,8 +12,13 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// [`IoError::System`], also when `fill` fails.
 pub fn write_atomic(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), IoError> {
-    write_in_steps(path, fill, &|_| Ok(()))
+    write_in_steps(path, |file| fill(file).map_err(system(path, "write")), &|_| Ok(()))
 }
+
+/// What a file is written to: it may go back to what it has written.
+pub(crate) trait Output: Write + Seek {}
+
+impl<W: Write + Seek> Output for W {}
 
 /// Writes bytes as a whole or not at all ([`write_atomic`]).
 ///
@@ -34,17 +39,19 @@ pub(crate) enum Step {
 }
 
 /// As [`write_atomic`], where `before` is called before each step, and its error takes the place of the step's: tests inject failures with it.
-pub(crate) fn write_in_steps(
+pub(crate) fn write_in_steps<T>(
     path: &Path,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    fill: impl FnOnce(&mut dyn Output) -> Result<T, IoError>,
     before: &dyn Fn(Step) -> io::Result<()>,
-) -> Result<(), IoError> {
+) -> Result<T, IoError> {
     let temporary = Temporary::beside(path, before).map_err(system(path, "create a temporary file beside it"))?;
     let mut writer = BufWriter::new(&temporary);
-    fill(&mut writer).and_then(|()| writer.flush()).map_err(system(path, "write"))?;
+    let filled = fill(&mut writer)?;
+    writer.flush().map_err(system(path, "write"))?;
     drop(writer);
     temporary.flush_to_disk().map_err(system(path, "flush to the disk"))?;
-    temporary.rename(path).map_err(system(path, "rename the finished temporary file to it"))
+    temporary.rename(path).map_err(system(path, "rename the finished temporary file to it"))?;
+    Ok(filled)
 }
 
 /// A file that is locked while it is written, and removed unless it is renamed.
@@ -106,6 +113,12 @@ impl Write for &Temporary<'_> {
 
     fn flush(&mut self) -> io::Result<()> {
         (&self.file).flush()
+    }
+}
+
+impl Seek for &Temporary<'_> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        (&self.file).seek(to)
     }
 }
 

@@ -14,7 +14,7 @@ pub(crate) fn deep_part<'a>(map: &'a DeepMap, about: About<'a>) -> Result<Part<'
     let window = stored_window(map);
     let names: &[&str] = if is_grey(map) { &GREY } else { &COLOUR };
     let comments = comments(about.head(map), window, numbers(map));
-    let mut header = about.header(map, &comments, window, names)?.with_encoding(
+    let mut header = about.header(map.view(), &comments, window, names)?.with_encoding(
         PACKING,
         BlockDescription::ScanLines,
         LineOrder::Increasing,

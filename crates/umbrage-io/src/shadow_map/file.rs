@@ -32,24 +32,24 @@ pub(crate) fn part_name(name: &str) -> Result<Text, Fault> {
     text.ok_or_else(|| Fault::new("name", name, problem()))
 }
 
+/// What a file says of a part before its blocks: the fields of [`Part`].
+#[derive(Clone, Copy)]
+pub(crate) struct Head<'a> {
+    pub header: &'a Header,
+    pub further: Option<&'a (&'static str, AttributeValue)>,
+    pub deep: bool,
+}
+
+impl Part<'_> {
+    fn head(&self) -> Head<'_> {
+        Head { header: &self.header, further: self.further.as_ref(), deep: self.deep }
+    }
+}
+
 /// The bytes of a file; the same bytes for the same parts.
 pub(crate) fn encode(parts: &[Part<'_>]) -> Result<Vec<u8>, Fault> {
-    if !(1..=MOST_PARTS).contains(&parts.len()) {
-        return Err(Fault::new("parts", parts.len(), format!("not within 1..={MOST_PARTS}")));
-    }
-    let mut names = HashSet::new();
-    let name = |part: &Part<'_>| part.header.own_attributes.layer_name.clone().unwrap_or_default().to_string();
-    if let Some(twice) = parts.iter().map(name).find(|name| !names.insert(name.clone())) {
-        return Err(Fault::new("name", twice, "two parts are to be called that"));
-    }
-    let mut bytes = Vec::new();
-    write_headers(parts, &mut bytes).map_err(|error| Fault::new("header", "unwritable", error))?;
-    if bytes.len() as u64 > MOST_HEADER_BYTES {
-        return Err(Fault::new("header", format!("{} bytes", bytes.len()), format!("more than {MOST_HEADER_BYTES}")));
-    }
-    let mut entry = bytes.len();
-    let blocks: usize = parts.iter().map(|part| part.header.chunk_count).sum();
-    bytes.resize(entry + 8 * blocks, 0);
+    let heads: Vec<Head<'_>> = parts.iter().map(Part::head).collect();
+    let (mut bytes, mut entry) = start(&heads)?;
     for (number, part) in parts.iter().enumerate() {
         for index in 0..part.header.chunk_count {
             let offset = bytes.len() as u64;
@@ -59,17 +59,42 @@ pub(crate) fn encode(parts: &[Part<'_>]) -> Result<Vec<u8>, Fault> {
                 bytes.extend((number as u32).to_le_bytes());
             }
             let block = (part.block)(index);
-            bytes.extend(block.map_err(|error| Fault::new(format!("part {}", name(part)), "unwritable", error))?);
+            let unwritable = |error| Fault::new(format!("part {}", name(&part.header)), "unwritable", error);
+            bytes.extend(block.map_err(unwritable)?);
         }
     }
     Ok(bytes)
 }
 
-fn write_headers(parts: &[Part<'_>], bytes: &mut Vec<u8>) -> UnitResult {
+/// What stands before a file's blocks, with an offset table of zeros; and where that table begins.
+pub(crate) fn start(parts: &[Head<'_>]) -> Result<(Vec<u8>, usize), Fault> {
+    if !(1..=MOST_PARTS).contains(&parts.len()) {
+        return Err(Fault::new("parts", parts.len(), format!("not within 1..={MOST_PARTS}")));
+    }
+    let mut names = HashSet::new();
+    if let Some(twice) = parts.iter().map(|part| name(part.header)).find(|name| !names.insert(name.clone())) {
+        return Err(Fault::new("name", twice, "two parts are to be called that"));
+    }
+    let mut bytes = Vec::new();
+    write_headers(parts, &mut bytes).map_err(|error| Fault::new("header", "unwritable", error))?;
+    if bytes.len() as u64 > MOST_HEADER_BYTES {
+        return Err(Fault::new("header", format!("{} bytes", bytes.len()), format!("more than {MOST_HEADER_BYTES}")));
+    }
+    let table = bytes.len();
+    let blocks: usize = parts.iter().map(|part| part.header.chunk_count).sum();
+    bytes.resize(table + 8 * blocks, 0);
+    Ok((bytes, table))
+}
+
+fn name(header: &Header) -> String {
+    header.own_attributes.layer_name.clone().unwrap_or_default().to_string()
+}
+
+fn write_headers(parts: &[Head<'_>], bytes: &mut Vec<u8>) -> UnitResult {
     magic_number::write(bytes)?;
     let several = parts.len() > 1;
     let has_deep_data = parts.iter().any(|part| part.deep);
-    let tiled = |part: &Part<'_>| matches!(part.header.blocks, BlockDescription::Tiles(_));
+    let tiled = |part: &Head<'_>| matches!(part.header.blocks, BlockDescription::Tiles(_));
     let flags = Requirements {
         file_format_version: 2,
         is_single_layer_and_tiled: !several && parts.iter().any(tiled),
@@ -84,7 +109,7 @@ fn write_headers(parts: &[Part<'_>], bytes: &mut Vec<u8>) -> UnitResult {
             let value = if part.deep && name == standard_names::BLOCK_TYPE { deep } else { value };
             attribute::write(name, &value, bytes)?;
         }
-        if let Some((name, value)) = &part.further {
+        if let Some((name, value)) = part.further {
             attribute::write(name.as_bytes(), value, bytes)?;
         }
         sequence_end::write(bytes)?;

@@ -87,19 +87,42 @@ pub(crate) struct Description {
 
 /// The text of a map: its head, the rectangle that is written of it unless it is the whole map, and the digest of head and depths.
 pub(crate) fn of_map(head: Head<'_>, window: TexelRect, depths: impl IntoIterator<Item = f32>) -> String {
-    let depths = depths.into_iter().map(f32::to_bits);
+    with_digest(head, window, digest(head, depths.into_iter().map(f32::to_bits)))
+}
+
+/// [`of_map`] with a digest that is known. Its length does not depend on the digest.
+pub(crate) fn with_digest(head: Head<'_>, window: TexelRect, digest: u64) -> String {
     let TexelRect { min, max } = window;
     let cropped = window != TexelRect::of_size(head.view.size());
     let window = if cropped { format!("window={} {} {} {}\n", min.x, min.y, max.x, max.y) } else { String::new() };
-    format!("{}{window}digest={:016x}\n", of_head(head), digest(head, depths))
+    format!("{}{window}digest={digest:016x}\n", of_head(head))
 }
 
-/// A number that depends on every bit of a head and its depths, or what else is kept of it in words of 32 bits (64-bit FNV-1a over
-/// their little-endian bytes), so that a damaged file is not taken for another map. It is no seal: whoever wants to can compute it.
+/// A number that depends on every bit of a head and its depths, or what else is kept of it in words of 32 bits.
 pub(crate) fn digest(head: Head<'_>, words: impl IntoIterator<Item = u32>) -> u64 {
-    let fold = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3);
-    let start = of_head(head).bytes().fold(0xCBF2_9CE4_8422_2325, fold);
-    words.into_iter().flat_map(u32::to_le_bytes).fold(start, fold)
+    let mut digest = Digest::of(head);
+    digest.add(words);
+    digest.0
+}
+
+/// A [`digest`] as it grows: 64-bit FNV-1a over the words' little-endian bytes, so that a damaged file is not taken for another map. It is
+/// no seal: whoever wants to can compute it.
+pub(crate) struct Digest(pub u64);
+
+impl Digest {
+    /// Of a head alone.
+    pub fn of(head: Head<'_>) -> Self {
+        Self(of_head(head).bytes().fold(0xCBF2_9CE4_8422_2325, Self::fold))
+    }
+
+    /// Goes on with further words.
+    pub fn add(&mut self, words: impl IntoIterator<Item = u32>) {
+        self.0 = words.into_iter().flat_map(u32::to_le_bytes).fold(self.0, Self::fold);
+    }
+
+    fn fold(hash: u64, byte: u8) -> u64 {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3)
+    }
 }
 
 /// What a text says of a map, or `None` when the text is somebody else's.

@@ -8,10 +8,10 @@ use exr::meta::header::{Header, LayerAttributes};
 use exr::prelude::{AttributeValue, ChannelDescription, Compression, IntegerBounds, LineOrder, SampleType, Text, Vec2};
 use glam::{IVec2, UVec2};
 use umbrage_depth::DepthMap;
-use umbrage_plane::TexelRect;
+use umbrage_plane::{TexelRect, View};
 
-/// Side of a tile, texels.
-const TILE: usize = 64;
+/// Side of a tile of a file, texels.
+pub(super) const TILE: usize = 64;
 
 /// What a map is called that is the only one of its file.
 pub(crate) const ONLY: &str = "shadow";
@@ -38,21 +38,15 @@ impl About<'_> {
     }
 
     /// A header with what every map's says of its view.
-    pub fn header(
-        self,
-        map: &impl DepthMap,
-        comments: &str,
-        window: TexelRect,
-        channels: &[&str],
-    ) -> Result<Header, Fault> {
+    pub fn header(self, view: &View, comments: &str, window: TexelRect, channels: &[&str]) -> Result<Header, Fault> {
         let name = part_name(self.name)?;
-        let [world_to_camera, world_to_ndc] = matrices::of_view(map.view(), self.display);
+        let [world_to_camera, world_to_ndc] = matrices::of_view(view, self.display);
         let mut attributes = LayerAttributes {
             layer_position: Vec2(window.min.x, window.min.y),
             world_to_camera: Some(world_to_camera),
             world_to_normalized_device: Some(world_to_ndc),
-            near_clip_plane: Some(map.view().near() as f32),
-            far_clip_plane: Some(map.view().far() as f32),
+            near_clip_plane: Some(view.near() as f32),
+            far_clip_plane: Some(view.far() as f32),
             comments: Some(Text::from(comments)),
             software_name: Some(Text::from(text::SOFTWARE)),
             ..LayerAttributes::named(name.clone())
@@ -77,16 +71,7 @@ pub(crate) fn part<'a>(map: &'a impl DepthMap, about: About<'a>) -> Result<Part<
     let window = stored_window(map);
     let texels = TexelRect::of_size(map.view().size()).texels();
     let comments = text::of_map(about.head(map), window, texels.map(|texel| map.depth(texel)));
-    let tiles = TileDescription {
-        tile_size: Vec2(TILE, TILE),
-        level_mode: LevelMode::Singular,
-        rounding_mode: exr::math::RoundingMode::Down,
-    };
-    let header = about.header(map, &comments, window, &["Z"])?.with_encoding(
-        Compression::ZIP16,
-        BlockDescription::Tiles(tiles),
-        LineOrder::Increasing,
-    );
+    let header = tiled(about.header(map.view(), &comments, window, &["Z"])?);
     let layout = Layout::new(&header, None, window, Channel::ONLY)?;
     let again = header.clone();
     let block = move |index: usize| {
@@ -94,6 +79,16 @@ pub(crate) fn part<'a>(map: &'a impl DepthMap, about: About<'a>) -> Result<Part<
         layout.pack(&again, index, depths.collect())
     };
     Ok(Part { header, further: None, deep: false, block: Box::new(block) })
+}
+
+/// A header of a part in tiles.
+pub(super) fn tiled(header: Header) -> Header {
+    let tiles = TileDescription {
+        tile_size: Vec2(TILE, TILE),
+        level_mode: LevelMode::Singular,
+        rounding_mode: exr::math::RoundingMode::Down,
+    };
+    header.with_encoding(Compression::ZIP16, BlockDescription::Tiles(tiles), LineOrder::Increasing)
 }
 
 /// The smallest rectangle around the finite depths (R87-19); one texel, as EXR needs it, when there are none.

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 use std::{fs, io};
-use write_file::{Step, write_atomic, write_bytes, write_in_steps};
+use write_file::{Output, Step, write_atomic, write_bytes, write_in_steps};
 
 /// What is written, in several pieces, each larger than a buffer.
 const PIECES: [&[u8]; 4] = [&[1; 20_000], &[2; 30_000], &[3; 10], &[4; 20_000]];
@@ -46,7 +46,8 @@ fn unlucky(path: &Path, kind: ErrorKind, fails: impl Fn(usize, Step) -> bool) ->
         steps.borrow_mut().push(step);
         if fails(number, step) { Err(Error::from(kind)) } else { Ok(()) }
     };
-    let written = write_in_steps(path, fill, &before);
+    let all = |file: &mut dyn Output| fill(file).map_err(error::system(path, "write"));
+    let written = write_in_steps(path, all, &before);
     (steps.into_inner(), written.err().map(|error| error.to_string()))
 }
 

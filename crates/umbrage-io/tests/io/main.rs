@@ -12,6 +12,7 @@ mod maps;
 mod paged;
 mod paged_faults;
 mod pictures;
+mod rows;
 mod shadow_maps;
 mod volumes;
 
