@@ -9,6 +9,7 @@
 //! * [`peers`]: other ways to the same answers.
 //! * [`timing`]: interleaved medians, and how far two threads get on this machine.
 //! * [`report`]: the rows of the report, each beside its peer and its goal.
+//! * [`scale`]: how time and memory grow with triangles, maps and pictures.
 //! * [`kernels`]: the five hottest loops, alone, for counting instructions.
 
 #![warn(missing_debug_implementations)]
@@ -19,6 +20,7 @@ pub mod meshes;
 pub mod peers;
 pub mod raster;
 pub mod report;
+pub mod scale;
 pub mod scene;
 pub mod timing;
 

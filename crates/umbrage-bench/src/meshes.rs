@@ -122,6 +122,27 @@ pub fn grid(cells: u32, across: u32, side: u32) -> Mesh {
     mesh
 }
 
+/// A curved sheet over the whole map of [`straight`], in so many triangles, an even number: made one by one, so that nothing but the caller
+/// holds them. It covers every texel of the map exactly once.
+pub fn streaming_sheet(count: u32, side: u32) -> impl Iterator<Item = Triangle> {
+    let cells = count / 2;
+    let rows = (1..=cells.isqrt()).rev().find(|rows| cells.is_multiple_of(*rows)).unwrap_or(1);
+    let columns = cells / rows;
+    let corner = move |column: u32, row: u32| {
+        let unit = Vec2::new(column as f32 / columns as f32, row as f32 / rows as f32);
+        seen_at(side, unit * (side as f32 + 0.5) - 0.25, 20.0 + 5.0 * (unit.x * unit.x - unit.y)).as_dvec3()
+    };
+    (0..count).map(move |index| {
+        let (column, row) = (index / 2 % columns, index / 2 / columns);
+        let (here, across) = (corner(column, row), corner(column + 1, row + 1));
+        let corners = match index % 2 {
+            0 => [here, corner(column, row + 1), across],
+            _ => [here, across, corner(column + 1, row)],
+        };
+        Triangle { corners, object: 0, sheet: true }
+    })
+}
+
 /// A knotted tube, closed, over a square ground at y = 0: `2 · along · around` triangles and two.
 pub fn knot_on_ground(along: u32, around: u32) -> Mesh {
     let mut mesh = Mesh::default();

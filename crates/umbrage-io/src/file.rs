@@ -29,8 +29,18 @@ pub fn remove_folder(path: &Path) -> Result<(), IoError> {
 
 /// All memory of the machine, bytes; `None` where the system does not say so in `/proc/meminfo`.
 pub fn machine_memory() -> Option<u64> {
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
+    kibibytes("/proc/meminfo", "MemTotal:")
+}
+
+/// The most memory that this process has held at once, bytes; `None` where the system does not say so in `/proc/self/status`.
+pub fn peak_memory() -> Option<u64> {
+    kibibytes("/proc/self/status", "VmHWM:")
+}
+
+/// The number that a line of a system's file gives in kB, as bytes.
+fn kibibytes(file: &str, name: &str) -> Option<u64> {
+    let text = std::fs::read_to_string(file).ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix(name))?;
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
 }
 

@@ -53,7 +53,7 @@ pub use error::{Fault, IoError};
 pub use facet_map::{
     DEFAULT_FACET_BUDGET, decode_facet_map, encode_facet_map, read_facet_map, read_facet_map_within, write_facet_map,
 };
-pub use file::{create_folder, file_bytes, machine_memory, read_bytes, remove_folder};
+pub use file::{create_folder, file_bytes, machine_memory, peak_memory, read_bytes, remove_folder};
 pub use map_options::{DEFAULT_BUDGET, GivenView, MapOptions};
 pub use named::{CUBE_FACES, FACES_AHEAD, light_of};
 pub use paged::{Paged, PagedHandle};

@@ -59,6 +59,9 @@ impl Frame {
     }
 }
 
+/// Tiles that are drawn before their pixels go into the picture, at least.
+const TOGETHER: u32 = 256;
+
 /// No object: the background.
 pub const NOTHING: u32 = u32::MAX;
 
@@ -118,16 +121,20 @@ pub fn picture_where(
     let (every_sample, width) = (frame.every_sample, size.x);
     let gather = Gather { soup: &soup, bins: &bins, masks: &masks, view: &view, axis, every_sample, width };
     let tiles = bins.tiles();
-    let done: Vec<(UVec2, TileOut)> = (0..tiles.x * tiles.y)
-        .into_par_iter()
-        .map(|index| {
-            let tile = UVec2::new(index % tiles.x, index / tiles.x);
-            (tile * (BIN / axis), finish_tile(scene, shadows, frame, gather.tile(tile, &wanted)))
-        })
-        .collect();
     let mut picture = Picture::empty(scene, size);
-    for (origin, tile) in done {
-        picture.place(origin, BIN / axis, &tile);
+    // A pixel that is finished takes several times as much as what the picture keeps of it.
+    let (count, together) = (tiles.x * tiles.y, TOGETHER.max(16 * rayon::current_num_threads() as u32));
+    for first in (0..count).step_by(together as usize) {
+        let done: Vec<(UVec2, TileOut)> = (first..count.min(first + together))
+            .into_par_iter()
+            .map(|index| {
+                let tile = UVec2::new(index % tiles.x, index / tiles.x);
+                (tile * (BIN / axis), finish_tile(scene, shadows, frame, gather.tile(tile, &wanted)))
+            })
+            .collect();
+        for (origin, tile) in done {
+            picture.place(origin, BIN / axis, &tile);
+        }
     }
     picture
 }
