@@ -163,7 +163,7 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     fn draw(&self, bins: &Bins, tile: UVec2) -> (Option<Cells<R>>, u64) {
         let (mut cells, mut fragments) = (None, 0);
         for pass in 0..R::PASSES {
-            if pass > 0 && !self.wants_more(&cells) {
+            if pass > 0 && !self.wants_more(cells.as_ref()) {
                 break;
             }
             let offered = self.draw_once(pass, bins, tile, &mut cells);
@@ -176,8 +176,8 @@ impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
 
     /// Whether a pass after the first may change a depth of a tile.
     #[inline(always)]
-    pub fn wants_more(&self, cells: &Option<Cells<R>>) -> bool {
-        cells.as_ref().is_some_and(|cells| !self.rule.settled(cells.as_slice()))
+    pub fn wants_more(&self, cells: Option<&Cells<R>>) -> bool {
+        cells.is_some_and(|cells| !self.rule.settled(cells.as_slice()))
     }
 
     /// One pass over what bins hold of a tile; the number of its fragments.

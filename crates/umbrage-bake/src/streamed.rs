@@ -165,7 +165,7 @@ impl<R: DepthRule> Band<'_, R> {
         tiles
             .map(|(index, cells)| {
                 let tile = self.tile(index);
-                if pass > 0 && !drawing.wants_more(cells) {
+                if pass > 0 && !drawing.wants_more(cells.as_ref()) {
                     return 0;
                 }
                 vectorized!(_ => drawing.draw_once(pass, bins, tile, cells))
@@ -176,7 +176,7 @@ impl<R: DepthRule> Band<'_, R> {
     fn wants_more(&self, cells: &[Option<Cells<R>>]) -> bool {
         let masks = Masks::new(self.view);
         let pass = self.pass(&masks);
-        cells.iter().any(|cells| pass.wants_more(cells))
+        cells.iter().any(|cells| pass.wants_more(cells.as_ref()))
     }
 
     /// The tiles that the cells become.

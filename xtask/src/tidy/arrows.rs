@@ -78,7 +78,7 @@ const RULES: &[Rule] = &[
     Rule {
         package: "umbrage-io",
         arrows: &["umbrage-depth"],
-        outside: &["exr", "fearless_simd", "glam", "png", "thiserror"],
+        outside: &["exr", "fearless_simd", "glam", "png", "rayon", "thiserror"],
         tests: PROPERTIES,
     },
     Rule {

@@ -1,6 +1,6 @@
 //! Maps of the bicycle shop that are never held as a whole: baked to disk in bands, looked up page by page.
 
-use super::Quantity;
+use super::quantity::Quantity;
 use glam::UVec2;
 use umbrage_bake::{Streaming, bake_streamed};
 use umbrage_depth::First;
@@ -43,7 +43,7 @@ pub(super) fn measure(side: u32) -> Result<Vec<Quantity>, Box<dyn std::error::Er
     let measured = written.and_then(|_| {
         let file = Quantity { what: "file", unit: "MiB", value: file_bytes(&path)? as f64 / 1_048_576.0 };
         let (map, handle) = Paged::open(&path, PAGES)?;
-        let shadow = ShadowMap { filter: Pcf::default().with_depth(Biased::constant(Bias::World(BIAS.into()))), map };
+        let shadow = ShadowMap { filter: Pcf::default().with_depth(Biased::constant(Bias::World(BIAS))), map };
         let (look, seen) =
             Quantity::timed("picture through its pages", || picture(&scene, &[&shadow], &Frame::CENTRES));
         assert!(handle.error().is_none(), "{:?}", handle.error());

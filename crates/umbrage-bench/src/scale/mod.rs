@@ -5,10 +5,11 @@
 
 mod maps;
 mod pictures;
+mod quantity;
 mod triangles;
 
-use crate::timing::wall_seconds;
-use std::fmt;
+pub use quantity::Quantity;
+
 use umbrage_io::peak_memory;
 
 /// What grows.
@@ -68,31 +69,5 @@ impl Series {
             measured.push(Quantity { what: "peak memory", unit: "MiB", value: bytes as f64 / 1_048_576.0 });
         }
         Ok(measured)
-    }
-}
-
-/// Something that was measured of a point. As text it is three fields with tabs between them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Quantity {
-    /// What.
-    pub what: &'static str,
-    /// Its unit.
-    pub unit: &'static str,
-    /// How much.
-    pub value: f64,
-}
-
-impl Quantity {
-    /// The wall time of something, and what came of it.
-    fn timed<T>(what: &'static str, run: impl FnOnce() -> T) -> (Self, T) {
-        let (mut run, mut result) = (Some(run), None);
-        let seconds = wall_seconds(&mut || result = run.take().map(|run| run()));
-        (Self { what, unit: "s", value: seconds }, result.expect("it ran"))
-    }
-}
-
-impl fmt::Display for Quantity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}\t{}\t{:.6}", self.what, self.unit, self.value)
     }
 }

@@ -1,6 +1,6 @@
 //! Pictures of the bicycle shop under its lamp, with the default recipe.
 
-use super::Quantity;
+use super::quantity::Quantity;
 use glam::UVec2;
 use umbrage_depth::Storage;
 use umbrage_recipe::Recipe;

@@ -1,6 +1,6 @@
 //! Pass 1 of as many triangles as one likes, none of which is kept.
 
-use super::Quantity;
+use super::quantity::Quantity;
 use crate::meshes::{straight, streaming_sheet};
 use std::convert::Infallible;
 use umbrage_bake::{Streaming, bake_streamed};

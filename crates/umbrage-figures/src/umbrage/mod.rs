@@ -11,6 +11,7 @@ mod methods;
 mod paging;
 mod sheet;
 mod softness;
+mod storage;
 mod where_wrong;
 
 use crate::figure::Figure;
@@ -24,6 +25,7 @@ pub const FIGURES: &[&Figure] = &[
     &methods::GRAZING,
     &matrix::PRESETS,
     &paging::PAGING,
+    &storage::STORAGE,
     &softness::SOFTNESS,
     &auto::SHOWN,
     &auto::LADDER_OF_PARTS,
