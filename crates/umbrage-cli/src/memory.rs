@@ -46,9 +46,14 @@ impl Need {
             .saturating_add(self.kept_texels.saturating_mul(PER_KEPT_TEXEL))
     }
 
+    /// Bytes that may be held beside all this.
+    pub fn left(&self, most: Option<u64>) -> u64 {
+        most.unwrap_or_else(default).saturating_sub(self.bytes())
+    }
+
     /// Texels of a map that may be held beside all this.
     pub fn texels_left(&self, most: Option<u64>) -> u64 {
-        most.unwrap_or_else(default).saturating_sub(self.bytes()) / PER_TEXEL
+        self.left(most) / PER_TEXEL
     }
 
     /// Nothing, if so much may be held.

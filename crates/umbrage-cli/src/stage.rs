@@ -42,14 +42,32 @@ pub struct Stage {
     pub recipe: Option<Recipe>,
     /// The value of `--max-memory`, bytes.
     pub max_memory: Option<u64>,
+    /// What all this and its maps may take.
+    pub need: Need,
 }
 
 impl Stage {
     /// The scene of a file or of the gallery, by `source`. `samples` are those of each pixel of a picture, 0 where none is drawn.
     ///
     /// # Errors
-    /// One line that says what is wrong with the scene or with what was asked of it.
+    /// One line that says what is wrong with the scene or with what was asked of it; also when it needs more than `max_memory`.
     pub fn new(
+        source: &str,
+        args: &SceneArgs,
+        max_memory: Option<u64>,
+        samples: u32,
+        shell: &mut Shell<'_>,
+    ) -> anyhow::Result<Self> {
+        let stage = Self::unchecked(source, args, max_memory, samples, shell)?;
+        stage.need.check(max_memory)?;
+        Ok(stage)
+    }
+
+    /// The same whatever it needs.
+    ///
+    /// # Errors
+    /// One line that says what is wrong with the scene or with what was asked of it.
+    pub fn unchecked(
         source: &str,
         args: &SceneArgs,
         max_memory: Option<u64>,
@@ -72,7 +90,7 @@ impl Stage {
         let maps: u64 = lamps.iter().map(|lamp| lamp.views.len() as u64).sum();
         let picture = if samples == 0 { UVec2::ZERO } else { size };
         let texels = maps * u64::from(args.map_size).pow(2);
-        Need { picture, samples, triangles: triangles.sum(), texels, ..Need::default() }.check(max_memory)?;
+        let need = Need { picture, samples, triangles: triangles.sum(), texels, ..Need::default() };
         if shell.verbose {
             // Several views together cover every direction.
             for lamp in lamps.iter().filter(|lamp| lamp.views.len() == 1) {
@@ -83,7 +101,7 @@ impl Stage {
                 }
             }
         }
-        Ok(Self { scene, lamps, casting, recipe, max_memory })
+        Ok(Self { scene, lamps, casting, recipe, max_memory, need })
     }
 
     /// The light's part of a file's name: nothing where the scene has one light that casts.

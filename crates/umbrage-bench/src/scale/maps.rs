@@ -29,7 +29,7 @@ pub(super) fn measure(side: u32) -> Result<Vec<Quantity>, Box<dyn std::error::Er
     let path = folder.join("map.exr");
     let soup = Soup::casters(&scene, &view);
     let (bake, written) = Quantity::timed("bake to disk", || {
-        write_shadow_map_by_rows(&path, &view, umbrage_depth::Stored::First, |rows| {
+        write_shadow_map_by_rows(&path, "pendant", &view, umbrage_depth::Stored::First, |rows| {
             bake_streamed(
                 &view,
                 || soup.triangles(),

@@ -86,6 +86,7 @@ fn maps_are_baked_described_and_looked_up() {
     for (rule, keeps, recipe) in [
         ("facets", "facets, ", "recipe: auto (the map holds facets)"),
         ("first", "first surface", "recipe: reeves87 (the map holds first surfaces)"),
+        ("second", "second surface", "recipe: wang-molnar94 (the map holds second surfaces)"),
         ("midpoint", "midpoint surface", "recipe: woo92 (the map holds midpoints)"),
         ("back-face", "back-face surface", "recipe: wang-molnar94 (the map holds second surfaces)"),
         ("deep", "all surfaces", "recipe: reeves87,stored=deep (the map holds all surfaces)"),

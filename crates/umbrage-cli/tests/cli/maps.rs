@@ -183,3 +183,24 @@ fn a_view_is_given_to_files_that_have_none() {
     let ours = refused(1, &["info", text(&out.join("contact-box.exr")), "--view", &view]);
     assert!(ours.ends_with("view is given: a map that Umbrage wrote has its own"), "{ours}");
 }
+
+#[test]
+fn maps_that_do_not_fit_in_memory_are_baked_in_bands_to_the_same_depths() {
+    let (whole, bands) = (folder("fits"), folder("bands"));
+    let scene = ["bake", "gallery:contact-box", "--map-size", "1200"];
+    for rule in ["first", "second", "back-face", "midpoint"] {
+        let with =
+            |folder: &Path, more: &[&str]| good(&[&scene[..], &["--rule", rule, "-o", text(folder)], more].concat());
+        with(&whole, &[]);
+        let ran = with(&bands, &["--max-memory", "140MiB"]);
+        assert!(ran.err.contains("1200 x 1200 texels do not fit in memory: baked in "), "{}", ran.err);
+        let read = |folder: &Path| umbrage_io::read_shadow_map(&folder.join("contact-box.exr")).expect("a map");
+        assert!(read(&whole) == read(&bands), "{rule}");
+    }
+    // What keeps more than a depth, or goes into a file with others, is held as a whole.
+    let out = text(&bands).to_owned();
+    for more in [&["--rule", "facets"][..], &["--rule", "first", "--one-file"]] {
+        let ran = run_with("", &[&scene[..], &["-o", &out, "--max-memory", "140MiB"], more].concat());
+        assert_eq!((ran.code, ran.err.contains("more than --max-memory 140 MiB")), (1, true), "{}", ran.err);
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::channel::Channel;
 use super::file::{Head, start};
-use super::write::{About, ONLY, TILE, tiled};
+use super::write::{About, TILE, tiled};
 use super::{Layout, text};
 use crate::error::{Fault, IoError, system};
 use crate::write_file::{Output, write_in_steps};
@@ -36,6 +36,7 @@ pub struct TileRows<'a> {
 /// Writes a map's file as a whole or not at all, as [`write_shadow_map`](crate::write_shadow_map) does, without ever holding the map: `fill`
 /// gives its rows of tiles one after the other, such as those of a bake in bands. Held are 64 rows of texels and 8 bytes for each 64×64 texels.
 ///
+/// `name` is that of the file's one part, printable and of Latin letters, such as the light's; [`write_shadow_map`](crate::write_shadow_map) gives `shadow`.
 /// `fill` may write fewer rows than the map has: the others have no surface. The file holds all texels of the map, also those around the
 /// surfaces, which [`write_shadow_map`](crate::write_shadow_map) leaves out; maps that have a surface in each row and column at the edge have
 /// the same bytes by both. [`Paged`](crate::Paged) looks it up without ever holding it either.
@@ -50,7 +51,7 @@ pub struct TileRows<'a> {
 /// # let lamp = View::orthographic(DVec3::Y, DVec3::ZERO, DVec3::X, 1.0, 0.0, 9.0, UVec2::new(64, 640))?;
 /// # let path = std::env::temp_dir().join(format!("umbrage-rows-{}.exr", std::process::id()));
 /// // A map of 2 x 20 tiles, each of one depth.
-/// write_shadow_map_by_rows(&path, &lamp, Stored::First, |rows| {
+/// write_shadow_map_by_rows(&path, "lamp", &lamp, Stored::First, |rows| {
 ///     for row in 0..20 {
 ///         let tile = Tile::new(Box::new([row as f32; 1024]), UVec2::splat(32));
 ///         rows.push(&[tile, None])?;
@@ -65,16 +66,17 @@ pub struct TileRows<'a> {
 /// ```
 ///
 /// # Errors
-/// [`IoError`], when the system refuses or `fill` fails; whatever was there before is still there then.
+/// [`IoError`], when the system refuses, the name does not do, or `fill` fails; whatever was there before is still there then.
 pub fn write_shadow_map_by_rows<T>(
     path: &Path,
+    name: &str,
     view: &View,
     stored: Stored,
     fill: impl FnOnce(&mut TileRows<'_>) -> Result<T, IoError>,
 ) -> Result<T, IoError> {
     let write = |file: &mut dyn Output| {
         let head = text::Head { view, stored, light_cone: None };
-        let mut rows = TileRows::new(path, file, head)?;
+        let mut rows = TileRows::new((path, name), file, head)?;
         let filled = fill(&mut rows)?;
         rows.finish()?;
         Ok(filled)
@@ -83,9 +85,9 @@ pub fn write_shadow_map_by_rows<T>(
 }
 
 impl<'a> TileRows<'a> {
-    fn new(path: &'a Path, file: &'a mut dyn Output, head: text::Head<'a>) -> Result<Self, IoError> {
+    fn new((path, name): (&'a Path, &str), file: &'a mut dyn Output, head: text::Head<'a>) -> Result<Self, IoError> {
         let window = TexelRect::of_size(head.view.size());
-        let about = About { name: ONLY, light_cone: None, display: head.view.size() };
+        let about = About { name, light_cone: None, display: head.view.size() };
         let unwritable = |fault: Fault| fault.in_file(path);
         let comments = text::with_digest(head, window, 0);
         let header = tiled(about.header(head.view, &comments, window, &["Z"]).map_err(unwritable)?);

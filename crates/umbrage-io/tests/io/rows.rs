@@ -15,7 +15,9 @@ fn rows(map: &Raw) -> Vec<Vec<Option<Tile>>> {
 }
 
 fn write(path: &Path, map: &Raw) -> Result<(), IoError> {
-    write_shadow_map_by_rows(path, map.view(), map.stored(), |file| rows(map).iter().try_for_each(|row| file.push(row)))
+    write_shadow_map_by_rows(path, "shadow", map.view(), map.stored(), |file| {
+        rows(map).iter().try_for_each(|row| file.push(row))
+    })
 }
 
 /// A map with a surface in every texel but those of `holes`.
@@ -57,7 +59,7 @@ fn rows_that_are_not_given_have_no_surface() {
     let path = folder("rows_few").join("map.exr");
     let map = full(UVec2::new(70, 150), TexelRect::EMPTY);
     let first = |file: &mut TileRows<'_>| rows(&map).iter().take(3).try_for_each(|row| file.push(row));
-    write_shadow_map_by_rows(&path, map.view(), Stored::Second, first).expect("written");
+    write_shadow_map_by_rows(&path, "shadow", map.view(), Stored::Second, first).expect("written");
     assert!(
         read_shadow_map(&path).expect("a map")
             == full(UVec2::new(70, 150), TexelRect::new(IVec2::new(0, 96), IVec2::new(70, 150)))
@@ -71,7 +73,9 @@ fn what_cannot_be_written_is_one_line_and_leaves_the_old_file() {
     let map = full(UVec2::new(70, 40), TexelRect::EMPTY);
     let tiles = rows(&map);
     let refused = |fill: &dyn Fn(&mut TileRows<'_>) -> Result<(), IoError>| {
-        let error = write_shadow_map_by_rows(&path, map.view(), Stored::First, fill).expect_err("refused").to_string();
+        let error = write_shadow_map_by_rows(&path, "shadow", map.view(), Stored::First, fill)
+            .expect_err("refused")
+            .to_string();
         assert_eq!(read(&path).expect("a file"), b"old");
         assert_eq!(std::fs::read_dir(path.parent().expect("a folder")).expect("a folder").count(), 1);
         error.rsplit_once("map.exr: ").expect("the file's name").1.to_owned()
@@ -79,4 +83,10 @@ fn what_cannot_be_written_is_one_line_and_leaves_the_old_file() {
     let many = refused(&|file| tiles.iter().chain(&tiles).try_for_each(|row| file.push(row)));
     assert_eq!(many, "rows of tiles is 3: the map has 2");
     assert_eq!(refused(&|file| file.push(&tiles[0][..2])), "tiles of a row is 2: the map has 3");
+    let named = write_shadow_map_by_rows(&path, "\n", map.view(), Stored::First, |_| Ok(()));
+    let line = named.expect_err("refused").to_string();
+    assert!(
+        line.ends_with("map.exr: name is \\n: not a name of 1 to 255 bytes, printable and of Latin letters"),
+        "{line}"
+    );
 }

@@ -1,11 +1,14 @@
 //! `umbrage bake`.
 
+mod bands;
+
 use crate::args::{BakeArgs, Cli, RuleArg};
 use crate::names;
 use crate::report::{Line, report};
 use crate::shell::{Shell, Usage};
 use crate::stage::{Lamp, Stage};
 use anyhow::Context;
+use bands::Bands;
 use std::time::{Duration, Instant};
 use umbrage_depth::DepthMap;
 use umbrage_io::{CUBE_FACES, FACES_AHEAD, NamedMap, create_folder, write_maps};
@@ -17,12 +20,23 @@ pub fn run(cli: &Cli, args: &BakeArgs, shell: &mut Shell<'_>) -> anyhow::Result<
         return Err(Usage("--recipe: a map is baked by --rule; a recipe is chosen when it is looked up".into()).into());
     }
     let recipe: Recipe = recipe(args.rule).parse().context("--rule")?;
-    let stage = Stage::new(&args.source, &args.scene, cli.max_memory, 0, shell)?;
+    let stage = Stage::unchecked(&args.source, &args.scene, cli.max_memory, 0, shell)?;
+    let bands = match stage.need.check(cli.max_memory) {
+        Ok(()) => None,
+        Err(error) => Some(Bands::new(cli, args, &stage).ok_or(error)?),
+    };
     create_folder(&args.output)?;
     let (mut files, mut lines, mut all) = (Vec::new(), Vec::new(), Vec::new());
     let progress = shell.progress(stage.lamps.len());
     for lamp in &stage.lamps {
         progress.set_message(lamp.name.clone());
+        if let Some(bands) = &bands {
+            let path = names::file(&args.output, &stage.scene.name, stage.part(lamp), &[], "exr");
+            lines.push(bands.write(&path, lamp, recipe.to_string(), shell)?);
+            files.push(path);
+            progress.inc(1);
+            continue;
+        }
         let start = Instant::now();
         let bake = |(name, view)| {
             let map = light_map(&recipe, &stage.scene, view).kept(args.storage);
@@ -71,7 +85,7 @@ fn recipe(rule: RuleArg) -> &'static str {
     match rule {
         RuleArg::Facets => "auto",
         RuleArg::First => "reeves87",
-        RuleArg::Second => "wang-molnar94",
+        RuleArg::Second => "wang-molnar94,stored=second",
         RuleArg::BackFace => "wang-molnar94,stored=back-face",
         RuleArg::Midpoint => "woo92",
         RuleArg::Deep => "reeves87,stored=deep",
