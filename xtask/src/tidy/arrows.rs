@@ -27,6 +27,7 @@ const RULES: &[Rule] = &[
         outside: &["fearless_simd", "glam", "rand", "rand_xoshiro"],
         tests: PROPERTIES,
     },
+    Rule { package: "umbrage-engines", arrows: &["umbrage-plane"], outside: &["glam", "thiserror"], tests: PROPERTIES },
     Rule {
         package: "umbrage-depth",
         arrows: &["umbrage-plane"],
