@@ -1,10 +1,14 @@
 //! The command line.
 
-use crate::values::{Area, Frames, MOST_PICTURES, Shard, area, frames, samples, seconds, shard, size};
+use crate::values::{
+    Area, Frames, MOST_PICTURES, Shard, area, frames, radius, samples, seconds, shard, size, tolerance,
+};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::UVec2;
 use std::path::PathBuf;
+use std::str::FromStr;
 use umbrage_depth::Storage;
+use umbrage_engines::Engine;
 
 /// Shadows of your own scenes: maps that need no bias, and what rays say beside them
 #[derive(Parser)]
@@ -71,6 +75,18 @@ Examples:
   umbrage bake gallery:contact-box -o maps
   umbrage bake gallery:three-lights --one-file --map-size 256 -o maps")]
     Bake(BakeArgs),
+    /// Find the smallest bias that ends false shadow and the largest that keeps shadows at their casters, and say what it is in an
+    /// engine's own settings
+    #[command(
+        after_help = "Every pixel of the camera that sees one surface facing the light is compared with rays. False shadow is the mean shadow on pixels whose
+surroundings are lit for as far as the filter reaches, false light the mean light on pixels in shadow, less what the filter alone leaves
+there. Engines' settings are exact for the receiver in the middle of the judged ones; umbrage-engines has their formulas and sources.
+
+Examples:
+  umbrage bias gallery:contact-box --size 96x72
+  umbrage bias gallery:table --size 96x72 --engine godot -o plots"
+    )]
+    Bias(BiasArgs),
     /// Say what a file of shadow maps holds
     #[command(after_help = "Examples:
   umbrage info maps/contact-box.exr
@@ -264,6 +280,27 @@ pub struct BakeArgs {
     /// Write one file, SCENE.exr, with the parts of all lights
     #[arg(long)]
     pub one_file: bool,
+}
+
+#[derive(Args)]
+pub struct BiasArgs {
+    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a scene that is built in (`umbrage scenes` lists them)
+    #[arg(value_name = "SCENE")]
+    pub source: String,
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// Print the settings of this engine alone, and where they are from
+    #[arg(long, value_name = "E", value_parser = <Engine as FromStr>::from_str)]
+    pub engine: Option<Engine>,
+    /// Half of the filter's width, texels; 0 for one texel
+    #[arg(long, value_name = "TEXELS", default_value_t = 1.5, value_parser = radius)]
+    pub radius: f64,
+    /// How much false shadow and how much false light counts as none, %
+    #[arg(long, value_name = "PERCENT", default_value_t = 0.5, value_parser = tolerance)]
+    pub tolerance: f64,
+    /// Fill this folder with a plot of false light against false shadow for each light
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

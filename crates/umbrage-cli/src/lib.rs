@@ -4,6 +4,7 @@
 
 mod args;
 mod bake;
+mod bias;
 mod digest;
 mod draws;
 mod export;
@@ -104,6 +105,7 @@ fn command(cli: &Cli, shell: &mut Shell<'_>) -> anyhow::Result<()> {
         Command::Gather(args) => gather::run(cli, args, shell),
         Command::Jobs(args) => farm::run(args, shell),
         Command::Bake(args) => bake::run(cli, args, shell),
+        Command::Bias(args) => bias::run(cli, args, shell),
         Command::Export(args) => export::run(cli, args, shell),
         Command::Info(args) => info::run(cli, args, shell),
         Command::Lookup(args) => lookup::run(cli, args, shell),

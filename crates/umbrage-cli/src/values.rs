@@ -75,3 +75,18 @@ pub fn shard(text: &str) -> Result<Shard, String> {
     let fits = |shard: &Shard| 1 <= shard.number && shard.number <= shard.count && shard.count <= MOST_PICTURES;
     shard.filter(fits).ok_or_else(|| format!("expected I/N, where N is 1 to {MOST_PICTURES} and I is 1 to N"))
 }
+
+/// A filter's half-width, texels.
+pub fn radius(text: &str) -> Result<f64, String> {
+    within(text, 0.0, 64.0)
+}
+
+/// A share that counts as none, %.
+pub fn tolerance(text: &str) -> Result<f64, String> {
+    within(text, 0.0, 100.0)
+}
+
+fn within(text: &str, least: f64, most: f64) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| (least..=most).contains(number));
+    number.ok_or_else(|| format!("expected a number from {least} to {most}"))
+}

@@ -3,7 +3,7 @@
 //! The oracle is one more [`Shadow`](umbrage_shadow::Shadow): [`RayCast`] answers exactly for a point, [`AreaRegion`]
 //! for a pixel's region, [`AreaLight`] for a light with extent, [`Mean`](umbrage_shadow::Mean) of them for a time that the shutter is open. [`metrics`]
 //! are the measures M1..M9 of the figures, [`faults`] gives the named faults of a picture with a heat map of each,
-//! [`predict`] what theory expects, [`BiasCase`] and [`BiasSearch`] whether a bias works, [`diagnose`] what to mend.
+//! [`predict`] what theory expects, [`BiasCase`], [`BiasSearch`] and [`BiasTrial`] whether a bias works, [`diagnose`] what to mend.
 //!
 //! ```
 //! use glam::{DVec4, Vec3};
@@ -31,6 +31,7 @@ mod plan;
 pub mod predict;
 mod ray;
 mod thin;
+mod trial;
 mod triangle;
 mod truth;
 
@@ -40,4 +41,5 @@ pub use diagnostic::Diagnostic;
 pub use faults::{Contact, Evidence, Fault, Faults, faults, gap_on_surface, heat, penumbra_width, profile_on_surface};
 pub use geometry::{Body, Face, Geometry, Hit};
 pub use plan::Plan;
+pub use trial::{BiasKind, BiasShares, BiasTrial, TruePixel};
 pub use truth::{AreaLight, AreaRegion, RayCast, Truth};

@@ -1,6 +1,7 @@
 //! The commands as a user would type them. One program, so that it is linked once.
 
 mod bad_luck;
+mod biases;
 mod commands;
 mod examples;
 mod file_names;
