@@ -53,8 +53,8 @@ impl DepthMap for Bbox {
     }
 
     #[inline(always)]
-    fn look<S: Simd>(&self, simd: S, _within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
-        rows::look(simd, &self.depths, self.rect, x, y)
+    fn look<S: Simd>(&self, simd: S, within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
+        rows::look(simd, &self.depths, self.rect, within, x, y)
     }
 
     #[inline(always)]

@@ -172,7 +172,7 @@ impl DepthMap for Map {
             Self::Facets(map) => return one_by_one(simd, map.as_ref(), x, y),
             Self::Deep(map) => return one_by_one(simd, map.as_ref(), x, y),
         };
-        rows::look(simd, depths, rect, x, y)
+        rows::look(simd, depths, rect, within, x, y)
     }
 
     #[inline(always)]

@@ -119,8 +119,8 @@ impl DepthMap for Raw {
     }
 
     #[inline(always)]
-    fn look<S: Simd>(&self, simd: S, _within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
-        rows::look(simd, &self.depths, TexelRect::of_size(self.view.size()), x, y)
+    fn look<S: Simd>(&self, simd: S, within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
+        rows::look(simd, &self.depths, TexelRect::of_size(self.view.size()), within, x, y)
     }
 
     fn stored(&self) -> Stored {

@@ -7,6 +7,8 @@ use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
 const AREA: usize = (TILE * TILE) as usize;
 /// log₂ of [`TILE`].
 const SHIFT: u32 = TILE.trailing_zeros();
+/// What a tile that is left out stands for.
+static EMPTY: [f32; AREA] = [f32::INFINITY; AREA];
 /// More tiles than this are not asked for their range.
 const MOST_ASKED: u32 = 64;
 /// What the first range is united with; never leaves this module.
@@ -132,6 +134,25 @@ impl Tiled {
         self.tiles[(at.y * self.grid.x + at.x) as usize].as_ref()
     }
 
+    /// [`Tiled::tile`] of a column and row that the map has.
+    #[inline(always)]
+    fn within(&self, x: i32, y: i32) -> Option<&Tile> {
+        let index = y as u32 * self.grid.x + x as u32;
+        if let Some(Some(tile)) = self.tiles.get(index as usize) { Some(tile) } else { None }
+    }
+
+    /// The depths there.
+    #[inline(always)]
+    fn depths_of(&self, x: i32, y: i32) -> &[f32; AREA] {
+        if let Some(tile) = self.within(x, y) { &tile.depths } else { &EMPTY }
+    }
+
+    /// Their range.
+    #[inline(always)]
+    fn range_of(&self, x: i32, y: i32) -> DepthRange {
+        if let Some(tile) = self.within(x, y) { tile.range } else { DepthRange::NOTHING }
+    }
+
     /// Number of tiles that are kept.
     pub fn tile_count(&self) -> usize {
         self.tiles.iter().flatten().count()
@@ -168,16 +189,36 @@ impl DepthMap for Tiled {
     }
 
     #[inline(always)]
-    fn look<S: Simd>(&self, simd: S, _within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
+    fn look<S: Simd>(&self, simd: S, within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
         let column: u32x16<S> = floor_texel(simd, x).bitcast();
         let row: u32x16<S> = floor_texel(simd, y).bitcast();
         let place = ((row & (TILE - 1)) << SHIFT) | (column & (TILE - 1));
-        let size = self.view.size();
+        let whole = TexelRect::of_size(self.view.size());
+        // Masks of AREA − 1 and of 3 are of no effect but to show that no index can be out of bounds.
+        let mut found = [f32::INFINITY; 16];
+        let (low, high) = (within.min >> SHIFT, within.max.wrapping_sub(IVec2::ONE) >> SHIFT);
+        if (high - low).cmple(IVec2::ONE).all() && whole.encloses(within) {
+            let first = self.depths_of(low.x, low.y);
+            if low == high {
+                // A small region lies in one tile more often than not.
+                for i in 0..16 {
+                    found[i] = first[place[i] as usize & (AREA - 1)];
+                }
+                return f32x16::load_array(simd, found);
+            }
+            let tiles =
+                [first, self.depths_of(high.x, low.y), self.depths_of(low.x, high.y), self.depths_of(high.x, high.y)];
+            let (right, below) = (column >> SHIFT, row >> SHIFT);
+            let tile = ((right - low.x as u32) & 1) | (((below - low.y as u32) & 1) << 1);
+            for i in 0..16 {
+                found[i] = tiles[tile[i] as usize & 3][place[i] as usize & (AREA - 1)];
+            }
+            return f32x16::load_array(simd, found);
+        }
+        let size = whole.size();
         let inside = column.simd_lt(u32x16::splat(simd, size.x)) & row.simd_lt(u32x16::splat(simd, size.y));
         let tile = (row >> SHIFT) * self.grid.x + (column >> SHIFT);
         let tile = inside.select(tile, u32x16::splat(simd, u32::MAX));
-        // The mask of AREA − 1 is of no effect but to show that no index can be out of bounds.
-        let mut found = [f32::INFINITY; 16];
         for i in 0..16 {
             if let Some(Some(tile)) = self.tiles.get(tile[i] as usize) {
                 found[i] = tile.depths[place[i] as usize & (AREA - 1)];
@@ -190,21 +231,28 @@ impl DepthMap for Tiled {
     #[inline(always)]
     fn range(&self, rect: TexelRect) -> DepthRange {
         let whole = TexelRect::of_size(self.view.size());
-        let touched = whole.intersect(rect);
+        let inside = whole.encloses(rect);
+        let touched = if inside { rect } else { whole.intersect(rect) };
         if touched.is_empty() {
             return DepthRange::NOTHING;
         }
-        let (low, high) = (touched.min.as_uvec2() >> SHIFT, (touched.max - 1).as_uvec2() >> SHIFT);
-        if (high - low + 1).element_product() > MOST_ASKED {
+        let (low, high) = (touched.min >> SHIFT, (touched.max - 1) >> SHIFT);
+        let first = self.range_of(low.x, low.y);
+        if low == high && inside {
+            // A small region lies in one tile more often than not.
+            return first;
+        }
+        let tiles = (high - low + 1).as_uvec2();
+        if tiles.element_product() > MOST_ASKED {
             return DepthRange::UNKNOWN;
         }
-        let mut range = if whole.encloses(rect) { NONE_YET } else { DepthRange::NOTHING };
+        let mut all = if inside { first } else { first.union(DepthRange::NOTHING) };
         for y in low.y..=high.y {
             for x in low.x..=high.x {
-                range = range.union(self.tile(UVec2::new(x, y)).map_or(DepthRange::NOTHING, Tile::range));
+                all = all.union(self.range_of(x, y));
             }
         }
-        range
+        all
     }
 
     fn stored(&self) -> Stored {

@@ -1,4 +1,4 @@
-use fearless_simd::{Simd, f32x16, prelude::*, u32x16};
+use fearless_simd::{Simd, f32x16, i32x16, prelude::*, u32x16};
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use umbrage_plane::mix32;
@@ -15,6 +15,16 @@ pub struct Key {
 const GOLDEN: u32 = 0x9E37_79B9;
 /// Dimensions kept apart per sample.
 const DIMENSIONS: u32 = 8;
+/// How far the numbers of sixteen consecutive samples lie from that of the first.
+const LANES: [u32; 16] = {
+    let mut lanes = [0; 16];
+    let mut i = 0;
+    while i < 16 {
+        lanes[i] = (i as u32).wrapping_mul(DIMENSIONS).wrapping_mul(GOLDEN);
+        i += 1;
+    }
+    lanes
+};
 
 impl Key {
     /// The key of a picture's light, before any region is named.
@@ -52,15 +62,15 @@ impl Key {
     /// [`Key::unit`] of sixteen consecutive samples, bit for bit.
     #[inline(always)]
     pub fn unit_lanes<S: Simd>(self, simd: S, first: u32, dim: u32) -> f32x16<S> {
-        let lane: u32x16<S> = u32x16::load_array(simd, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15]);
-        let index = (lane + first) * DIMENSIONS + dim;
-        let mut bits = index * GOLDEN + self.state;
+        let start = self.state.wrapping_add(first.wrapping_mul(DIMENSIONS).wrapping_add(dim).wrapping_mul(GOLDEN));
+        let mut bits: u32x16<S> = u32x16::load_array(simd, LANES) + start;
         bits ^= bits >> 16;
         bits *= 0x7FEB_352D;
         bits ^= bits >> 15;
         bits *= 0x846C_A68B;
         bits ^= bits >> 16;
-        (bits >> 8).to_float::<f32x16<S>>() * (1.0 / 16_777_216.0)
+        // As signed numbers, which these 24 bits are as well: AVX2 converts no others.
+        (bits >> 8).bitcast::<i32x16<S>>().to_float::<f32x16<S>>() * (1.0 / 16_777_216.0)
     }
 
     /// A stream for what is drawn once: tables, scenes, camera sets.

@@ -38,7 +38,7 @@ mod probe;
 mod query;
 mod surfaces;
 
-pub use depths::{AnyDepth, BiasCone, Biased, OnPlane, Radius, ReceiverDepth, Spread};
+pub use depths::{AnyDepth, BiasCone, Biased, Compared, OnPlane, Radius, ReceiverDepth, Spread};
 pub use fearless_simd::Simd;
 pub use filters::{
     Conditional, DualPlane, FilteredDepth, IntegerFirst, MapRadius, OccluderFalloff, Opacity, Pcf, Soft, Softness,

@@ -1,6 +1,6 @@
 use crate::surfaces::{Channel, Met, Seen, Surfaces};
-use crate::{Probe, ReceiverDepth};
-use fearless_simd::{Simd, f32x16, prelude::*};
+use crate::{Compared, Probe, ReceiverDepth};
+use fearless_simd::{Simd, f32x4, f32x16, i32x4, prelude::*};
 use glam::{IVec2, Vec2};
 use std::fmt;
 use std::sync::Arc;
@@ -144,26 +144,42 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
     /// It never differs from what [`share`](Self::share) answers.
     #[inline(always)]
     pub fn settled(&mut self, region: &Footprint, depth: &impl ReceiverDepth) -> Option<f32> {
-        let view = self.view();
-        if self.map.translucent().is_some() || !view.holds(region.centre, region.half) {
+        let area = Area::of(self.simd, self.view(), region);
+        self.settled_in(area, &depth.prepared(self.view(), self.receiver))
+    }
+
+    #[inline(always)]
+    fn settled_in(&mut self, area: Area, compared: &impl Compared) -> Option<f32> {
+        if self.map.translucent().is_some() || !area.inside {
             return None;
         }
-        let rect = TexelRect::around(region.centre, region.half);
-        let stored = self.map.range(rect);
+        let stored = self.map.range(area.rect);
         if stored == DepthRange::UNKNOWN {
             // Then nothing is settled, whatever is compared.
             return None;
         }
-        let compared = depth.bounds(view, self.receiver, rect);
-        let dark = if compared.max <= stored.min {
-            false
-        } else if compared.min > stored.max {
-            true
-        } else {
-            return None;
-        };
+        let dark = compared.settled(area.rect, stored)?;
         self.probe.culled(dark);
         Some(f32::from(u8::from(dark)))
+    }
+
+    /// What [`settled`](Self::settled) answers, and where that is nothing, what [`share`](Self::share) does; in less time than one after the
+    /// other. Without `cull` only the second is asked: the same answer.
+    #[inline(always)]
+    pub fn settled_or_share(
+        &mut self,
+        region: &Footprint,
+        pattern: &impl Pattern,
+        depth: &impl ReceiverDepth,
+        cull: bool,
+    ) -> f32 {
+        let area = Area::of(self.simd, self.view(), region);
+        let compared = depth.prepared(self.view(), self.receiver);
+        let settled = if cull { self.settled_in(area, &compared) } else { None };
+        settled.unwrap_or_else(
+            #[inline(always)]
+            || self.share_in(area, region, (pattern, &compared), nearer),
+        )
     }
 
     /// The fraction of a region's taps that are in shadow, weights included; 0 where there is no tap.
@@ -171,13 +187,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
     /// Taps outside the map or the cone answer by the view's rules (C-10), texels of deep maps by what passes them (B06-11).
     #[inline(always)]
     pub fn share(&mut self, region: &Footprint, pattern: &impl Pattern, depth: &impl ReceiverDepth) -> f32 {
-        self.share_by(
-            region,
-            pattern,
-            depth,
-            #[inline(always)]
-            |_, compared, stored, _| compared.simd_gt(stored).to_bitmask() as u32,
-        )
+        self.share_by(region, pattern, depth, nearer)
     }
 
     /// [`Query::share`] with another way to compare: `behind` reports, of sixteen compared and stored depths and the mask of those that
@@ -188,29 +198,40 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         region: &Footprint,
         pattern: &impl Pattern,
         depth: &impl ReceiverDepth,
+        behind: impl FnMut(&mut P, f32x16<S>, f32x16<S>, u32) -> u32,
+    ) -> f32 {
+        let compared = depth.prepared(self.view(), self.receiver);
+        self.share_in(Area::of(self.simd, self.view(), region), region, (pattern, &compared), behind)
+    }
+
+    #[inline(always)]
+    fn share_in(
+        &mut self,
+        Area { rect, inside }: Area,
+        region: &Footprint,
+        (pattern, compared): (&impl Pattern, &impl Compared),
         mut behind: impl FnMut(&mut P, f32x16<S>, f32x16<S>, u32) -> u32,
     ) -> f32 {
         let (simd, map, view, channel) = (self.simd, self.map, self.view(), self.channel);
-        let rect = TexelRect::around(region.centre, region.half);
-        let inside = view.holds(region.centre, region.half);
         let (deep, weighted) = (map.translucent(), pattern.weighted());
         let probe = &mut *self.probe;
         let (mut hits, mut count) = (0.0, 0.0);
         let looked = Self::visit(
-            (simd, view, self.receiver, self.key),
+            (simd, self.key),
             region,
-            (pattern, depth),
+            (pattern, compared),
             #[inline(always)]
             |taps, compared| {
                 if let Some(deep) = deep {
                     let from = Passing { deep, channel, view, inside, weighted };
-                    from.add(taps, &compared.into(), (&mut hits, &mut count));
+                    // Of a copy: the taps themselves stay in registers where no other function is given them.
+                    from.add(&{ *taps }, &compared.into(), (&mut hits, &mut count));
                     return;
                 }
                 let stored = map.look(simd, rect, taps.x, taps.y);
                 let mut nearer = behind(probe, compared, stored, taps.mask) & taps.mask;
                 if !inside {
-                    nearer = by_rules(view, taps, nearer);
+                    nearer = by_rules(view, &{ *taps }, nearer);
                 }
                 if weighted {
                     for i in 0..16 {
@@ -257,13 +278,12 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         mut f: impl FnMut(&Seen<'_>),
     ) {
         let (simd, map, view) = (self.simd, self.map, self.view());
-        let rect = TexelRect::around(region.centre, region.half);
-        let inside = view.holds(region.centre, region.half);
+        let Area { rect, inside } = Area::of(simd, view, region);
         let this = &*self;
         let looked = Self::visit(
-            (simd, view, self.receiver, self.key),
+            (simd, self.key),
             region,
-            (pattern, depth),
+            (pattern, &depth.prepared(view, self.receiver)),
             #[inline(always)]
             |taps, compared| {
                 let stored = map.look(simd, rect, taps.x, taps.y);
@@ -292,11 +312,11 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         mut f: impl FnMut(&Taps<S>, f32x16<S>, f32x16<S>),
     ) {
         let (simd, map) = (self.simd, self.map);
-        let rect = TexelRect::around(region.centre, region.half);
+        let Area { rect, .. } = Area::of(simd, self.view(), region);
         let looked = Self::visit(
-            (simd, self.view(), self.receiver, self.key),
+            (simd, self.key),
             region,
-            (pattern, depth),
+            (pattern, &depth.prepared(self.view(), self.receiver)),
             #[inline(always)]
             |taps, compared| f(taps, compared, map.look(simd, rect, taps.x, taps.y)),
         );
@@ -306,9 +326,9 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
     /// Calls `f` with sixteen taps of a region at a time and the depths that are compared there. Returns the number of taps.
     #[inline(always)]
     fn visit(
-        (simd, view, receiver, key): (S, &View, &Receiver, Key),
+        (simd, key): (S, Key),
         region: &Footprint,
-        (pattern, depth): (&impl Pattern, &impl ReceiverDepth),
+        (pattern, compared): (&impl Pattern, &impl Compared),
         mut f: impl FnMut(&Taps<S>, f32x16<S>),
     ) -> u32 {
         let mut looked = 0;
@@ -319,7 +339,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
             #[inline(always)]
             |taps| {
                 looked += taps.mask.count_ones();
-                f(taps, depth.lanes(simd, view, receiver, taps));
+                f(taps, compared.lanes(simd, taps));
             },
         );
         looked
@@ -350,6 +370,45 @@ impl<S: Simd, M, P> fmt::Debug for Query<'_, S, M, P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Query").field("receiver", self.receiver).field("key", &self.key).finish_non_exhaustive()
     }
+}
+
+/// A region in the map's texels.
+#[derive(Clone, Copy)]
+struct Area {
+    /// All texels that it touches.
+    rect: TexelRect,
+    /// Whether all of it lies inside the map and the cone.
+    inside: bool,
+}
+
+impl Area {
+    /// [`TexelRect::around`] and [`View::holds`], of all four sides at once where there is no cone. A region of NaN is not inside, and no texel
+    /// in particular is in its rectangle.
+    #[inline(always)]
+    fn of<S: Simd>(simd: S, view: &View, region: &Footprint) -> Self {
+        const FAR: f32 = 1_073_741_824.0;
+        let (centre, half) = (region.centre, region.half);
+        let (low, high) = (centre - half, centre + half);
+        let sides = f32x4::load_array(simd, [low.x, low.y, high.x, high.y]);
+        let whole = sides.floor().max(f32x4::splat(simd, -FAR)).min(f32x4::splat(simd, FAR));
+        let [left, top, right, bottom]: [i32; 4] = whole.to_int::<i32x4<S>>().into();
+        let (min, last) = (IVec2::new(left, top), IVec2::new(right, bottom));
+        let inside = if view.cone().is_some() {
+            view.holds(centre, half)
+        } else {
+            let size = view.size().as_vec2();
+            let within = sides.simd_ge(f32x4::splat(simd, 0.0))
+                & sides.simd_lt(f32x4::load_array(simd, [size.x, size.y, size.x, size.y]));
+            within.all_true()
+        };
+        Self { rect: TexelRect::new(min, last + IVec2::ONE), inside }
+    }
+}
+
+/// Which of sixteen compared depths lie behind what is stored.
+#[inline(always)]
+fn nearer<S: Simd, P>(_: &mut P, compared: f32x16<S>, stored: f32x16<S>, _: u32) -> u32 {
+    compared.simd_gt(stored).to_bitmask() as u32
 }
 
 /// What a deep map lets through at taps.

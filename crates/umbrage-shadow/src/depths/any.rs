@@ -1,4 +1,4 @@
-use crate::{BiasCone, Biased, OnPlane, ReceiverDepth};
+use super::{BiasCone, Biased, Compared, OnPlane, ReceiverDepth, biased, cone, plane};
 use fearless_simd::{Simd, f32x16};
 use umbrage_plane::{DepthRange, Receiver, TexelRect, View};
 use umbrage_sample::Taps;
@@ -15,22 +15,68 @@ pub enum AnyDepth {
     Cone(BiasCone),
 }
 
+impl AnyDepth {
+    /// For one receiver.
+    #[inline(always)]
+    fn ready<'a>(&self, view: &'a View, receiver: &'a Receiver) -> Ready<'a> {
+        match self {
+            Self::Biased(depth) => Ready::Biased(depth.ready(view, receiver)),
+            Self::OnPlane(depth) => Ready::OnPlane(depth.ready(view, receiver)),
+            Self::Cone(depth) => Ready::Cone(depth.ready(view, receiver)),
+        }
+    }
+}
+
 impl ReceiverDepth for AnyDepth {
     #[inline(always)]
     fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
-        match self {
-            Self::Biased(depth) => depth.lanes(simd, view, receiver, taps),
-            Self::OnPlane(depth) => depth.lanes(simd, view, receiver, taps),
-            Self::Cone(depth) => depth.lanes(simd, view, receiver, taps),
-        }
+        self.ready(view, receiver).lanes(simd, taps)
     }
 
     #[inline(always)]
     fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
+        self.ready(view, receiver).bounds(rect)
+    }
+
+    #[inline(always)]
+    fn prepared<'a>(&'a self, view: &'a View, receiver: &'a Receiver) -> impl Compared + 'a {
+        self.ready(view, receiver)
+    }
+}
+
+/// [`AnyDepth`] of one receiver.
+#[derive(Clone, Copy)]
+enum Ready<'a> {
+    Biased(biased::Ready),
+    OnPlane(plane::Ready),
+    Cone(cone::Ready<'a>),
+}
+
+impl Compared for Ready<'_> {
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, simd: S, taps: &Taps<S>) -> f32x16<S> {
         match self {
-            Self::Biased(depth) => depth.bounds(view, receiver, rect),
-            Self::OnPlane(depth) => depth.bounds(view, receiver, rect),
-            Self::Cone(depth) => depth.bounds(view, receiver, rect),
+            Self::Biased(depth) => depth.lanes(simd, taps),
+            Self::OnPlane(depth) => depth.lanes(simd, taps),
+            Self::Cone(depth) => depth.lanes(simd, taps),
+        }
+    }
+
+    #[inline(always)]
+    fn bounds(&self, rect: TexelRect) -> DepthRange {
+        match self {
+            Self::Biased(depth) => depth.bounds(rect),
+            Self::OnPlane(depth) => depth.bounds(rect),
+            Self::Cone(depth) => depth.bounds(rect),
+        }
+    }
+
+    #[inline(always)]
+    fn settled(&self, rect: TexelRect, stored: DepthRange) -> Option<bool> {
+        match self {
+            Self::Biased(depth) => depth.settled(rect, stored),
+            Self::OnPlane(depth) => depth.settled(rect, stored),
+            Self::Cone(depth) => depth.settled(rect, stored),
         }
     }
 }

@@ -1,4 +1,4 @@
-use crate::ReceiverDepth;
+use super::{Compared, ReceiverDepth};
 use fearless_simd::{Simd, f32x16, prelude::*};
 use umbrage_plane::{Bias, DepthRange, Receiver, TexelRect, View};
 use umbrage_sample::{Taps, radical_inverses};
@@ -39,9 +39,12 @@ impl Biased {
         Self { low: Bias::World(low), high: Bias::World(high), spread: Spread::Random }
     }
 
+    /// For one receiver.
     #[inline(always)]
-    fn ends(&self, view: &View, receiver: &Receiver) -> (f32, f32) {
-        (receiver.nearer(view, self.low), receiver.nearer(view, self.high))
+    pub(super) fn ready(&self, view: &View, receiver: &Receiver) -> Ready {
+        let (near_end, far_end) = (receiver.nearer(view, self.low), receiver.nearer(view, self.high));
+        let constant = near_end == far_end || !(far_end - near_end).is_finite();
+        Ready { near_end, span: if constant { None } else { Some(far_end - near_end) }, spread: self.spread }
     }
 }
 
@@ -55,24 +58,45 @@ impl Default for Biased {
 impl ReceiverDepth for Biased {
     #[inline(always)]
     fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
-        let (near_end, far_end) = self.ends(view, receiver);
-        if near_end == far_end || !(far_end - near_end).is_finite() {
-            return f32x16::splat(simd, near_end);
-        }
+        self.ready(view, receiver).lanes(simd, taps)
+    }
+
+    #[inline(always)]
+    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
+        self.ready(view, receiver).bounds(rect)
+    }
+
+    #[inline(always)]
+    fn prepared<'a>(&'a self, view: &'a View, receiver: &'a Receiver) -> impl Compared + 'a {
+        self.ready(view, receiver)
+    }
+}
+
+/// [`Biased`] of one receiver.
+#[derive(Clone, Copy)]
+pub(super) struct Ready {
+    /// The depth moved by the smallest bias.
+    near_end: f32,
+    /// How far beyond that the largest bias moves it; `None` where there is one bias alone.
+    span: Option<f32>,
+    spread: Spread,
+}
+
+impl Compared for Ready {
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, simd: S, taps: &Taps<S>) -> f32x16<S> {
+        let Some(span) = self.span else { return f32x16::splat(simd, self.near_end) };
         let share = match self.spread {
             Spread::Random => taps.u,
             Spread::Ramp => radical_inverses(simd, taps.first),
         };
-        share * (far_end - near_end) + near_end
+        share * span + self.near_end
     }
 
     #[inline(always)]
-    fn bounds(&self, view: &View, receiver: &Receiver, _rect: TexelRect) -> DepthRange {
-        let (near_end, far_end) = self.ends(view, receiver);
-        if near_end == far_end || !(far_end - near_end).is_finite() {
-            return DepthRange { min: near_end, max: near_end };
-        }
-        let last = near_end + (far_end - near_end);
-        DepthRange { min: near_end.min(last), max: near_end.max(last) }
+    fn bounds(&self, _rect: TexelRect) -> DepthRange {
+        let Some(span) = self.span else { return DepthRange { min: self.near_end, max: self.near_end } };
+        let last = self.near_end + span;
+        DepthRange { min: self.near_end.min(last), max: self.near_end.max(last) }
     }
 }

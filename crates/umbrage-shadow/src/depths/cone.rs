@@ -1,7 +1,7 @@
-use crate::ReceiverDepth;
+use super::{Compared, ReceiverDepth};
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::DVec2;
-use umbrage_plane::{Bias, DepthRange, Receiver, TexelRect, View, floor_texel};
+use umbrage_plane::{Bias, DepthRange, Kind, Receiver, TexelRect, View, floor_texel};
 use umbrage_sample::Taps;
 
 /// From where to where a [`BiasCone`] measures (B06-3).
@@ -50,15 +50,58 @@ impl BiasCone {
     }
 }
 
+impl BiasCone {
+    /// For one receiver.
+    #[inline(always)]
+    pub(super) fn ready<'a>(&self, view: &'a View, receiver: &'a Receiver) -> Ready<'a> {
+        Ready { cone: *self, view, receiver, tip: receiver.texel, world: receiver.texel_world.as_dvec2() }
+    }
+}
+
 impl ReceiverDepth for BiasCone {
     #[inline(always)]
     fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
-        let tip = receiver.texel;
-        let world = receiver.texel_world.as_dvec2();
-        let [x, y] = match self.radius {
+        self.ready(view, receiver).lanes(simd, taps)
+    }
+
+    #[inline(always)]
+    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
+        self.ready(view, receiver).bounds(rect)
+    }
+
+    #[inline(always)]
+    fn prepared<'a>(&'a self, view: &'a View, receiver: &'a Receiver) -> impl Compared + 'a {
+        self.ready(view, receiver)
+    }
+}
+
+/// [`BiasCone`] of one receiver.
+#[derive(Clone, Copy)]
+pub(super) struct Ready<'a> {
+    cone: BiasCone,
+    view: &'a View,
+    receiver: &'a Receiver,
+    /// Where its tip is, texels.
+    tip: DVec2,
+    /// World units of a texel there.
+    world: DVec2,
+}
+
+impl Ready<'_> {
+    /// The depth at a distance, world units.
+    #[inline(always)]
+    fn at(&self, distance: f64) -> f32 {
+        self.receiver.nearer(self.view, Bias::World(self.cone.bias(distance as f32)))
+    }
+}
+
+impl Compared for Ready<'_> {
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, simd: S, taps: &Taps<S>) -> f32x16<S> {
+        let [x, y] = match self.cone.radius {
             Radius::TexelCentre => {
                 let (columns, rows) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
-                view.sampling().positions(&columns.into(), &rows.into())
+                self.view.sampling().positions(&columns.into(), &rows.into())
             }
             Radius::Nominal => {
                 let places: [[f32; 16]; 2] = [taps.x.into(), taps.y.into()];
@@ -69,21 +112,56 @@ impl ReceiverDepth for BiasCone {
                 wide
             }
         };
-        let mut depths = [0.0; 16];
+        let mut distances = [0.0; 16];
         for i in 0..16 {
-            let distance = ((DVec2::new(x[i], y[i]) - tip) * world).length() as f32;
-            depths[i] = receiver.nearer(view, Bias::World(self.bias(distance)));
+            distances[i] = ((DVec2::new(x[i], y[i]) - self.tip) * self.world).length();
+        }
+        let mut depths = [0.0; 16];
+        // Two loops, so that the one without branches becomes vector instructions: `nearer` of a world bias in maps of any depth but the
+        // screen's is a difference.
+        if self.view.kind() == Kind::Screen {
+            for i in 0..16 {
+                depths[i] = self.at(distances[i]);
+            }
+        } else {
+            for i in 0..16 {
+                depths[i] = self.receiver.depth - self.cone.bias(distances[i] as f32);
+            }
         }
         f32x16::load_array(simd, depths)
     }
 
     #[inline(always)]
-    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
-        let tip = receiver.texel;
-        let (low, high) = (rect.min.as_dvec2() - tip, rect.max.as_dvec2() - tip);
-        let reach = low.abs().max(high.abs()) * receiver.texel_world.as_dvec2();
-        let inside = DVec2::ZERO.clamp(low, high) * receiver.texel_world.as_dvec2();
-        let at = |distance: f64| receiver.nearer(view, Bias::World(self.bias(distance as f32)));
-        DepthRange { min: at(reach.length()).next_down(), max: at(inside.length()).next_up() }
+    fn bounds(&self, rect: TexelRect) -> DepthRange {
+        DepthRange { min: self.farthest(rect), max: self.nearest(rect) }
+    }
+
+    #[inline(always)]
+    fn settled(&self, rect: TexelRect, stored: DepthRange) -> Option<bool> {
+        // Where one end of the bounds lies between what is stored, the other cannot change that.
+        let max = self.nearest(rect);
+        if max <= stored.min {
+            Some(false)
+        } else if max > stored.max && self.farthest(rect) > stored.max {
+            Some(true)
+        } else {
+            None
+        }
+    }
+}
+
+impl Ready<'_> {
+    /// No depth is smaller: that where the rectangle is farthest from the tip.
+    #[inline(always)]
+    fn farthest(&self, rect: TexelRect) -> f32 {
+        let (low, high) = (rect.min.as_dvec2() - self.tip, rect.max.as_dvec2() - self.tip);
+        self.at((low.abs().max(high.abs()) * self.world).length()).next_down()
+    }
+
+    /// No depth is larger.
+    #[inline(always)]
+    fn nearest(&self, rect: TexelRect) -> f32 {
+        let (low, high) = (rect.min.as_dvec2() - self.tip, rect.max.as_dvec2() - self.tip);
+        self.at((DVec2::ZERO.clamp(low, high) * self.world).length()).next_up()
     }
 }

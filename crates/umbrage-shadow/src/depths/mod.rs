@@ -21,4 +21,58 @@ pub trait ReceiverDepth: Send + Sync {
 
     /// Encloses every value that [`ReceiverDepth::lanes`] can return for taps inside `rect`, rounding included.
     fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange;
+
+    /// The same for one receiver: what all of its taps and its bounds have in common is made once. A depth for which that is nothing
+    /// leaves this alone; where it is overridden, the bits are those of the other two functions.
+    #[inline(always)]
+    fn prepared<'a>(&'a self, view: &'a View, receiver: &'a Receiver) -> impl Compared + 'a {
+        Unprepared { depth: self, view, receiver }
+    }
+}
+
+/// A [`ReceiverDepth`] of one receiver.
+pub trait Compared {
+    /// [`ReceiverDepth::lanes`].
+    fn lanes<S: Simd>(&self, simd: S, taps: &Taps<S>) -> f32x16<S>;
+
+    /// [`ReceiverDepth::bounds`].
+    fn bounds(&self, rect: TexelRect) -> DepthRange;
+
+    /// Whether all taps inside `rect` are in shadow, where none of `stored`'s depths leaves that open; `None` where the bounds and `stored`
+    /// overlap. Overridden where that can be found without both bounds.
+    #[inline(always)]
+    fn settled(&self, rect: TexelRect, stored: DepthRange) -> Option<bool> {
+        by_bounds(self.bounds(rect), stored)
+    }
+}
+
+/// The answer of two ranges.
+#[inline(always)]
+fn by_bounds(compared: DepthRange, stored: DepthRange) -> Option<bool> {
+    if compared.max <= stored.min {
+        Some(false)
+    } else if compared.min > stored.max {
+        Some(true)
+    } else {
+        None
+    }
+}
+
+/// A depth for which there is nothing to prepare.
+struct Unprepared<'a, D: ?Sized> {
+    depth: &'a D,
+    view: &'a View,
+    receiver: &'a Receiver,
+}
+
+impl<D: ReceiverDepth + ?Sized> Compared for Unprepared<'_, D> {
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, simd: S, taps: &Taps<S>) -> f32x16<S> {
+        self.depth.lanes(simd, self.view, self.receiver, taps)
+    }
+
+    #[inline(always)]
+    fn bounds(&self, rect: TexelRect) -> DepthRange {
+        self.depth.bounds(self.view, self.receiver, rect)
+    }
 }

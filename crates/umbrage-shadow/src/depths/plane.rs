@@ -1,6 +1,6 @@
-use crate::ReceiverDepth;
+use super::{Compared, ReceiverDepth, by_bounds};
 use fearless_simd::{Simd, f32x16, prelude::*};
-use umbrage_plane::{Bias, DepthRange, Kind, Receiver, TexelRect, View, floor_texel};
+use umbrage_plane::{Bias, DepthPlane, DepthRange, Kind, Receiver, Sampling, TexelRect, View, floor_texel};
 use umbrage_sample::Taps;
 
 /// The receiver's tangent plane where the texel that is read was sampled, moved toward the light
@@ -35,6 +35,18 @@ impl OnPlane {
         Self { bias, slack: 0.0, reach: f32::INFINITY }
     }
 
+    /// For one receiver.
+    #[inline(always)]
+    pub(super) fn ready(&self, view: &View, receiver: &Receiver) -> Ready {
+        Ready {
+            plane: receiver.plane(view),
+            sampling: view.sampling(),
+            low: receiver.depth - self.reach,
+            high: receiver.depth + self.reach,
+            shift: self.shift(view, receiver),
+        }
+    }
+
     /// How far the plane is moved away from the receiver's own depth, in the map's units; ≤ 0 is toward the light.
     #[inline(always)]
     fn shift(&self, view: &View, receiver: &Receiver) -> f32 {
@@ -48,22 +60,65 @@ impl OnPlane {
 impl ReceiverDepth for OnPlane {
     #[inline(always)]
     fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
-        let plane = receiver.plane(view);
-        let shift = self.shift(view, receiver);
+        self.ready(view, receiver).lanes(simd, taps)
+    }
+
+    #[inline(always)]
+    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
+        self.ready(view, receiver).bounds(rect)
+    }
+
+    #[inline(always)]
+    fn prepared<'a>(&'a self, view: &'a View, receiver: &'a Receiver) -> impl Compared + 'a {
+        self.ready(view, receiver)
+    }
+}
+
+/// [`OnPlane`] of one receiver.
+#[derive(Clone, Copy)]
+pub(super) struct Ready {
+    plane: DepthPlane,
+    sampling: Sampling,
+    /// Depths of the plane are kept from here, before it is moved,
+    low: f32,
+    /// to here.
+    high: f32,
+    /// How far it is moved.
+    shift: f32,
+}
+
+impl Ready {
+    /// What is compared where the plane has a depth.
+    #[inline(always)]
+    fn moved(&self, depth: f32) -> f32 {
+        depth.max(self.low).min(self.high) + self.shift
+    }
+}
+
+impl Compared for Ready {
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, simd: S, taps: &Taps<S>) -> f32x16<S> {
         let (columns, rows) = (floor_texel(simd, taps.x), floor_texel(simd, taps.y));
-        let (low, high) = (receiver.depth - self.reach, receiver.depth + self.reach);
-        let mut depths = plane.at_all(&view.sampling().positions(&columns.into(), &rows.into()));
+        let mut depths = self.plane.at_all(&self.sampling.positions(&columns.into(), &rows.into()));
         for depth in &mut depths {
-            *depth = depth.max(low).min(high) + shift;
+            *depth = self.moved(*depth);
         }
         f32x16::load_array(simd, depths)
     }
 
     #[inline(always)]
-    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
-        let shift = self.shift(view, receiver);
-        let plane = receiver.plane(view).bounds(rect);
-        let kept = |depth: f32| depth.max(receiver.depth - self.reach).min(receiver.depth + self.reach);
-        DepthRange { min: kept(plane.min) + shift, max: kept(plane.max) + shift }
+    fn bounds(&self, rect: TexelRect) -> DepthRange {
+        let plane = self.plane.bounds(rect);
+        DepthRange { min: self.moved(plane.min), max: self.moved(plane.max) }
+    }
+
+    #[inline(always)]
+    fn settled(&self, rect: TexelRect, stored: DepthRange) -> Option<bool> {
+        // The bounds lie around all corners: one that lies between what is stored leaves everything open.
+        let corner = self.moved(self.plane.at(rect.min.as_dvec2()));
+        if corner > stored.min && corner <= stored.max {
+            return None;
+        }
+        by_bounds(self.bounds(rect), stored)
     }
 }

@@ -63,10 +63,6 @@ impl<P: Pattern, D: ReceiverDepth> Filter for Pcf<P, D> {
     #[inline(always)]
     fn shadow<S: Simd, M: DepthMap, Q: Probe>(&self, query: &mut Query<'_, S, M, Q>) -> f32 {
         let region = query.region(self.res_factor, self.min_size);
-        let settled = if self.cull { query.settled(&region, &self.depth) } else { None };
-        settled.unwrap_or_else(
-            #[inline(always)]
-            || query.share(&region, &self.pattern, &self.depth),
-        )
+        query.settled_or_share(&region, &self.pattern, &self.depth, self.cull)
     }
 }
