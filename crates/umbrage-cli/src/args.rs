@@ -1,7 +1,7 @@
 //! The command line.
 
 use crate::values::{
-    Area, Frames, MOST_PICTURES, Shard, area, frames, radius, samples, seconds, shard, size, tolerance,
+    Area, Frames, MOST_PICTURES, Shard, area, frames, pixel, radius, samples, seconds, shard, size, tolerance,
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::UVec2;
@@ -87,6 +87,15 @@ Examples:
   umbrage bias gallery:table --size 96x72 --engine godot -o plots"
     )]
     Bias(BiasArgs),
+    /// Say why a pixel is lit or dark: what it sees, each texel that is asked, what rays say, and the name of the fault if they differ
+    #[command(
+        after_help = "Pixels are counted from 0 in the upper left. Taps are listed as the filter takes them; their weights and answers add up to its own.
+
+Examples:
+  umbrage explain gallery:table --pixel 60,44 --size 96x72 --recipe reeves87,bias=0
+  umbrage explain gallery:contact-box --pixel 48,40 --size 96x72 -o texels.svg"
+    )]
+    Explain(ExplainArgs),
     /// Say what a file of shadow maps holds
     #[command(after_help = "Examples:
   umbrage info maps/contact-box.exr
@@ -300,6 +309,24 @@ pub struct BiasArgs {
     pub tolerance: f64,
     /// Fill this folder with a plot of false light against false shadow for each light
     #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub struct ExplainArgs {
+    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a scene that is built in (`umbrage scenes` lists them)
+    #[arg(value_name = "SCENE")]
+    pub source: String,
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// Column and row of a pixel; may be given several times
+    #[arg(long, value_name = "X,Y", required = true, value_parser = pixel)]
+    pub pixel: Vec<[u32; 2]>,
+    /// Samples for each pixel, as `umbrage shadow` has them
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = samples)]
+    pub samples: u32,
+    /// Draw the texels around the first surface of the pixel, with its footprint and the taps
+    #[arg(short, long, value_name = "FILE.svg")]
     pub output: Option<PathBuf>,
 }
 

@@ -7,6 +7,7 @@ mod bake;
 mod bias;
 mod digest;
 mod draws;
+mod explain;
 mod export;
 mod farm;
 mod gather;
@@ -106,6 +107,7 @@ fn command(cli: &Cli, shell: &mut Shell<'_>) -> anyhow::Result<()> {
         Command::Jobs(args) => farm::run(args, shell),
         Command::Bake(args) => bake::run(cli, args, shell),
         Command::Bias(args) => bias::run(cli, args, shell),
+        Command::Explain(args) => explain::run(cli, args, shell),
         Command::Export(args) => export::run(cli, args, shell),
         Command::Info(args) => info::run(cli, args, shell),
         Command::Lookup(args) => lookup::run(cli, args, shell),

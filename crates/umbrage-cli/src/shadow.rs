@@ -167,32 +167,42 @@ fn recipe(recipe: &Recipe, area: Option<f64>, window: WindowArg) -> anyhow::Resu
     text.parse().map_err(|error| Usage(format!("recipe {text}: {error}")).into())
 }
 
-/// The fraction in shadow of each pixel, by one light.
-fn drawn(scene: &Scene, lamp: &Lamp, shadow: &dyn Shadow, frame: &Frame) -> Vec<f32> {
+/// The scene under one of its lights, with all objects receiving the shadow.
+pub fn lit_alone(scene: &Scene, lamp: &Lamp) -> Scene {
     let mut one = Scene { lights: vec![scene.lights[lamp.light].clone()], ..scene.clone() };
     one.objects.iter_mut().for_each(|object| object.receives = true);
-    let turned = Turned { shadow, light: &one.lights[0].view.clone() };
+    one
+}
+
+/// The fraction in shadow of each pixel, by one light.
+fn drawn(scene: &Scene, lamp: &Lamp, shadow: &dyn Shadow, frame: &Frame) -> Vec<f32> {
+    let one = lit_alone(scene, lamp);
+    let turned = Turned { shadow, light: &one.lights[0].view };
     picture(&one, &[&turned], frame).shadow.swap_remove(0)
 }
 
-fn by_rays(stage: &Stage, lamp: &Lamp, geometry: &Geometry, area: Option<f64>, frame: &Frame) -> Vec<f32> {
+/// Calls `ask` with rays toward a light.
+pub fn ray<T>(stage: &Stage, lamp: &Lamp, geometry: &Geometry, ask: impl FnOnce(RayCast<'_>) -> T) -> T {
     let view = &stage.scene.lights[lamp.light].view;
     let all_around = lamp.views.len() > 1 && view.cone().is_none();
     let ray = if all_around { RayCast::everywhere(geometry, view.light()) } else { RayCast::new(geometry, view) };
-    let ray = ray.with(Truth { look_everywhere: true, ..Truth::default() });
-    match area {
+    ask(ray.with(Truth { look_everywhere: true, ..Truth::default() }))
+}
+
+fn by_rays(stage: &Stage, lamp: &Lamp, geometry: &Geometry, area: Option<f64>, frame: &Frame) -> Vec<f32> {
+    ray(stage, lamp, geometry, |ray| match area {
         None => drawn(&stage.scene, lamp, &ray, frame),
         Some(radius) => {
             let rays = AREA_RAYS[usize::from(frame.axis == 1)];
             drawn(&stage.scene, lamp, &AreaLight::new(ray, radius).with_samples(rays), frame)
         }
-    }
+    })
 }
 
 /// A shadow in which surfaces that face away from the light are dark, whatever maps say of them.
-struct Turned<'a> {
-    shadow: &'a dyn Shadow,
-    light: &'a View,
+pub struct Turned<'a> {
+    pub shadow: &'a dyn Shadow,
+    pub light: &'a View,
 }
 
 impl Shadow for Turned<'_> {

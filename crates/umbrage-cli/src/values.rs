@@ -90,3 +90,9 @@ fn within(text: &str, least: f64, most: f64) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| (least..=most).contains(number));
     number.ok_or_else(|| format!("expected a number from {least} to {most}"))
 }
+
+/// Column and row of a pixel, from 0.
+pub fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let parsed = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    parsed.ok_or_else(|| "expected X,Y, two whole numbers from 0".into())
+}

@@ -30,6 +30,7 @@
 
 pub mod as_printed;
 mod depths;
+mod explanation;
 mod filters;
 mod lights;
 mod mean;
@@ -39,6 +40,7 @@ mod query;
 mod surfaces;
 
 pub use depths::{AnyDepth, BiasCone, Biased, Compared, OnPlane, Radius, ReceiverDepth, Spread};
+pub use explanation::{Explanation, Question};
 pub use fearless_simd::Simd;
 pub use filters::{
     Conditional, DualPlane, FilteredDepth, IntegerFirst, MapRadius, OccluderFalloff, Opacity, Pcf, Soft, Softness,
@@ -50,6 +52,6 @@ pub use lights::{
 };
 pub use mean::weighted_mean;
 pub use presets::{Preset, StoredError};
-pub use probe::{Counters, Crossing, PlaceJudged, Probe, Vote};
+pub use probe::{Counters, Crossing, PlaceJudged, Probe, TapJudged, Vote};
 pub use query::{Filter, Query};
 pub use surfaces::{Met, Seen, Surfaces};

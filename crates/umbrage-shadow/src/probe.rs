@@ -1,6 +1,23 @@
-use glam::DVec2;
+use glam::{DVec2, Vec2};
 use umbrage_depth::FacetSample;
 use umbrage_plane::Place;
+
+/// One tap of a region, as a filter judged it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TapJudged {
+    /// Where it is, texels of the map.
+    pub at: Vec2,
+    /// The nearest depth that its texel stores, of the map's kind; +∞ where no surface is stored.
+    pub stored: f32,
+    /// The receiver's depth that is compared there, of the map's kind.
+    pub compared: f32,
+    /// How much it counts.
+    pub weight: f32,
+    /// The answer of the view's rules for its place, where they have one; the depths do not count then.
+    pub ruled: Option<f32>,
+    /// The answer: 0 lit, 1 dark, between them where casters let light pass.
+    pub dark: f32,
+}
 
 /// One place of a region, as [`DualPlane`](crate::DualPlane) judged it.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,7 +93,8 @@ pub trait Probe {
     /// A region that was compared on its tangent plane (WM94-15).
     #[inline(always)]
     fn virtual_sampled(&mut self) {}
-    /// Whether [`Probe::judged`] is called for every place that is asked about, which takes longer than the answer itself.
+    /// Whether [`Probe::judged`] is called for every place that is asked about, and [`Probe::tapped`] for every tap, which takes longer than the
+    /// answer itself.
     #[inline(always)]
     fn explains(&self) -> bool {
         false
@@ -85,6 +103,14 @@ pub trait Probe {
     #[inline(always)]
     fn judged(&mut self, place: &PlaceJudged) {
         let _ = place;
+    }
+    /// The taps that follow are one question. Called only when [`Probe::explains`].
+    #[inline(always)]
+    fn asked(&mut self) {}
+    /// One tap of a region. Called only when [`Probe::explains`].
+    #[inline(always)]
+    fn tapped(&mut self, tap: &TapJudged) {
+        let _ = tap;
     }
     /// A comparison by whole units first; `conclusive` when they settled it (W92-7).
     #[inline(always)]

@@ -1,5 +1,5 @@
 use crate::surfaces::{Channel, Met, Seen, Surfaces};
-use crate::{Compared, Probe, ReceiverDepth};
+use crate::{Compared, Probe, ReceiverDepth, TapJudged};
 use fearless_simd::{Simd, f32x4, f32x16, i32x4, prelude::*};
 use glam::{IVec2, Vec2};
 use std::fmt;
@@ -215,6 +215,9 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         let (simd, map, view, channel) = (self.simd, self.map, self.view(), self.channel);
         let (deep, weighted) = (map.translucent(), pattern.weighted());
         let probe = &mut *self.probe;
+        if probe.explains() {
+            probe.asked();
+        }
         let (mut hits, mut count) = (0.0, 0.0);
         let looked = Self::visit(
             (simd, self.key),
@@ -226,12 +229,22 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
                     let from = Passing { deep, channel, view, inside, weighted };
                     // Of a copy: the taps themselves stay in registers where no other function is given them.
                     from.add(&{ *taps }, &compared.into(), (&mut hits, &mut count));
+                    if probe.explains() {
+                        let compared: [f32; 16] = compared.into();
+                        let dark = std::array::from_fn(|i| from.dark(taps.tap(i).at, compared[i]));
+                        let stored = map.look(simd, rect, taps.x, taps.y).into();
+                        report(probe, (view, inside, weighted), &{ *taps }, [&compared, &stored, &dark]);
+                    }
                     return;
                 }
                 let stored = map.look(simd, rect, taps.x, taps.y);
                 let mut nearer = behind(probe, compared, stored, taps.mask) & taps.mask;
                 if !inside {
                     nearer = by_rules(view, &{ *taps }, nearer);
+                }
+                if probe.explains() {
+                    let dark = std::array::from_fn(|i| (nearer >> i & 1) as f32);
+                    report(probe, (view, inside, weighted), &{ *taps }, [&compared.into(), &stored.into(), &dark]);
                 }
                 if weighted {
                     for i in 0..16 {
@@ -279,6 +292,10 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
     ) {
         let (simd, map, view) = (self.simd, self.map, self.view());
         let Area { rect, inside } = Area::of(simd, view, region);
+        if self.probe.explains() {
+            self.probe.asked();
+        }
+        let (mut explained, explains) = (Vec::new(), self.probe.explains());
         let this = &*self;
         let looked = Self::visit(
             (simd, self.key),
@@ -294,10 +311,17 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
                         || Met::Surfaces(this.surfaces(tap.at.floor().as_ivec2(), stored[i])),
                         Met::Settled,
                     );
-                    f(&Seen { tap, compared: compared[i], met });
+                    let seen = Seen { tap, compared: compared[i], met };
+                    if explains {
+                        explained.push(seen.judged(stored[i]));
+                    }
+                    f(&seen);
                 }
             },
         );
+        for tap in &explained {
+            self.probe.tapped(tap);
+        }
         self.count(looked);
     }
 
@@ -311,14 +335,26 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         depth: &impl ReceiverDepth,
         mut f: impl FnMut(&Taps<S>, f32x16<S>, f32x16<S>),
     ) {
-        let (simd, map) = (self.simd, self.map);
-        let Area { rect, .. } = Area::of(simd, self.view(), region);
+        let (simd, map, view) = (self.simd, self.map, self.view());
+        let Area { rect, .. } = Area::of(simd, view, region);
+        let probe = &mut *self.probe;
+        if probe.explains() {
+            probe.asked();
+        }
         let looked = Self::visit(
             (simd, self.key),
             region,
-            (pattern, &depth.prepared(self.view(), self.receiver)),
+            (pattern, &depth.prepared(view, self.receiver)),
             #[inline(always)]
-            |taps, compared| f(taps, compared, map.look(simd, rect, taps.x, taps.y)),
+            |taps, compared| {
+                let stored = map.look(simd, rect, taps.x, taps.y);
+                if probe.explains() {
+                    let nearer = compared.simd_gt(stored).to_bitmask() as u32;
+                    let dark = std::array::from_fn(|i| (nearer >> i & 1) as f32);
+                    report(probe, (view, true, false), &{ *taps }, [&compared.into(), &stored.into(), &dark]);
+                }
+                f(taps, compared, stored);
+            },
         );
         self.count(looked);
     }
@@ -434,6 +470,29 @@ impl Passing<'_> {
             *count += weight;
             *hits += weight * ruled.unwrap_or_else(|| 1.0 - self.channel.of(passes(), grey));
         }
+    }
+
+    /// What does not pass at one tap.
+    fn dark(&self, at: Vec2, compared: f32) -> f32 {
+        let ruled = if self.inside { None } else { by_rule(self.view, at) };
+        let passes = || self.deep.transmittance(at.floor().as_ivec2(), compared);
+        ruled.unwrap_or_else(|| 1.0 - self.channel.of(passes(), self.deep.is_grey()))
+    }
+}
+
+/// Reports sixteen taps to a probe: compared depths, stored ones, and answers.
+#[inline(never)]
+fn report<S: Simd>(
+    probe: &mut impl Probe,
+    (view, inside, weighted): (&View, bool, bool),
+    taps: &Taps<S>,
+    [compared, stored, dark]: [&[f32; 16]; 3],
+) {
+    for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
+        let at = taps.tap(i).at;
+        let weight = if weighted { taps.weight[i] } else { 1.0 };
+        let ruled = if inside { None } else { by_rule(view, at) };
+        probe.tapped(&TapJudged { at, stored: stored[i], compared: compared[i], weight, ruled, dark: dark[i] });
     }
 }
 

@@ -1,3 +1,4 @@
+use crate::TapJudged;
 use glam::{IVec2, Vec3};
 use std::borrow::Cow;
 use umbrage_depth::{Step, Translucent};
@@ -43,6 +44,13 @@ impl Seen<'_> {
             Met::Settled(dark) => *dark,
             Met::Surfaces(surfaces) => surfaces.dark(self.compared),
         }
+    }
+
+    /// The same for a probe, with the nearest depth that is stored there.
+    pub(crate) fn judged(&self, stored: f32) -> TapJudged {
+        let ruled = if let Met::Settled(dark) = &self.met { Some(*dark) } else { None };
+        let (at, weight, compared) = (self.tap.at, self.tap.weight, self.compared);
+        TapJudged { at, stored, compared, weight, ruled, dark: self.dark() }
     }
 }
 

@@ -38,6 +38,21 @@ pub fn counts(subject: &Subject) -> Found {
     Ok(())
 }
 
+pub fn explained(subject: &Subject) -> Found {
+    let (map, points) = scene();
+    let shadow = subject.over(&map.kept(Storage::Tiled));
+    for (i, point) in points.iter().step_by(5).enumerate() {
+        let explained = shadow.explain(point, KEY);
+        check(explained.len() == 1, || format!("point {i}: {} explanations of one map", explained.len()))?;
+        same("point", i, &[shadow.fraction(point, KEY), explained[0].fraction])?;
+        for tap in explained[0].questions.iter().flat_map(|question| &question.taps) {
+            let by_rule = tap.ruled.is_none_or(|dark| dark == tap.dark);
+            check(by_rule && (0.0..=1.0).contains(&tap.dark) && tap.weight >= 0.0, || format!("point {i}: {tap:?}"))?;
+        }
+    }
+    Ok(())
+}
+
 pub fn splits(subject: &Subject) -> Found {
     let (map, points) = scene();
     let shadow = subject.over(&map.kept(Storage::Tiled));

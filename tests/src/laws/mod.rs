@@ -38,6 +38,7 @@ pub const EVERY: &[Law] = &[
     ("every storage and every machine gives the same bits", maps::storages),
     ("answers lie within 0 and 1", maps::bounded),
     ("receivers are placed, culled or sampled, and watching changes nothing", batches::counts),
+    ("an explanation has the same answer", batches::explained),
     ("a batch is its points one by one, on any thread", batches::splits),
 ];
 

@@ -109,7 +109,7 @@ const RULES: &[Rule] = &[
             "rayon",
             "serde_json",
         ],
-        tests: &[],
+        tests: &["exr"],
     },
     Rule {
         package: "umbrage-bench",

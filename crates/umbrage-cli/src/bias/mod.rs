@@ -3,6 +3,8 @@
 mod engines;
 mod found;
 
+pub use found::short;
+
 use crate::args::{BiasArgs, Cli};
 use crate::names;
 use crate::shell::{Shell, Usage};

@@ -4,6 +4,7 @@ mod bad_luck;
 mod biases;
 mod commands;
 mod examples;
+mod explained;
 mod file_names;
 mod lamps;
 mod lookups;

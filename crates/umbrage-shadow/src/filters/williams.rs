@@ -7,7 +7,7 @@
 //! Departures: (1) bilinear interpolation of an axial perspective map is done on −1/ζ, where planes are linear
 //! (W78-13, D-1); (2) [`Guard`] keeps blends across silhouettes out of the comparison (W78-14).
 
-use crate::{Filter, Probe, Query, Surfaces};
+use crate::{Filter, Probe, Query, Surfaces, TapJudged};
 use fearless_simd::Simd;
 use glam::{DMat4, DVec3, DVec4, IVec2, Vec2};
 use umbrage_depth::DepthMap;
@@ -137,6 +137,17 @@ impl Filter for Williams {
                 let dark = compared > bilinear(query.map(), at, guard, receiver);
                 let (texels, fraction) = four(view, at);
                 let surfaces = texels.map(|texel| query.texel(texel));
+                if query.probe().explains() {
+                    // The depths are interpolated, and one answer is made of all four.
+                    query.probe().asked();
+                    let [x, y] = fraction.to_array();
+                    let weights = [(1.0 - x) * (1.0 - y), x * (1.0 - y), (1.0 - x) * y, x * y];
+                    for (texel, (surfaces, weight)) in texels.iter().zip(surfaces.iter().zip(weights)) {
+                        let (at, stored) = (texel.as_vec2() + 0.5, surfaces.nearest());
+                        let dark = f32::from(u8::from(dark));
+                        query.probe().tapped(&TapJudged { at, stored, compared, weight, ruled: None, dark });
+                    }
+                }
                 if dark && query.map().translucent().is_some() {
                     // What the surfaces of the four texels stop in all, of those that have any.
                     let stops = lerp(surfaces.each_ref().map(|surfaces| surfaces.dark(f32::INFINITY)), fraction);
@@ -148,7 +159,16 @@ impl Filter for Williams {
                 }
             }
             // Outside the map there is nothing to interpolate, only what a neighbour may store there.
-            Lookup::Nearest | Lookup::Bilinear(_) => query.texel(at.floor().as_ivec2()).dark(compared),
+            Lookup::Nearest | Lookup::Bilinear(_) => {
+                let surfaces = query.texel(at.floor().as_ivec2());
+                let dark = surfaces.dark(compared);
+                if query.probe().explains() {
+                    let stored = surfaces.nearest();
+                    query.probe().asked();
+                    query.probe().tapped(&TapJudged { at, stored, compared, weight: 1.0, ruled: None, dark });
+                }
+                dark
+            }
         }
     }
 }

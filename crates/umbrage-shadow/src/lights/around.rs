@@ -2,7 +2,7 @@ use super::parts::in_parts;
 use super::{Shadow, Unshadowed, by_channel, same_length};
 use crate::query::answer;
 use crate::surfaces::Channel;
-use crate::{Filter, Probe, Query};
+use crate::{Explanation, Filter, Probe, Query};
 use fearless_simd::Simd;
 use glam::{DVec2, DVec3, IVec2, Vec3};
 use std::borrow::Cow;
@@ -162,6 +162,16 @@ impl<F: Filter, M: DepthMap> Shadow for Around<F, M> {
         }
         same_length(at, fractions);
         by_channel(at, out, |channel, dark| self.batch(channel, at, key, dark, &mut ()));
+    }
+
+    /// By the map whose axis is nearest to the point's direction.
+    fn explain(&self, at: &SurfacePoint, key: Key) -> Vec<Explanation> {
+        let own = nearest(&self.maps, at.position - self.maps[0].view().light().truncate());
+        let view = self.maps[own].view();
+        let (mut explanation, mut out) = (Explanation::of(view, view.receiver(at).ok()), [0.0]);
+        self.batch(Channel::All, std::slice::from_ref(at), key, &mut out, &mut explanation);
+        explanation.fraction = out[0];
+        vec![explanation]
     }
 }
 

@@ -1,4 +1,5 @@
 use super::{Shadow, same_length};
+use crate::Explanation;
 use crate::query::answer;
 use glam::{DVec3, Vec3};
 use umbrage_plane::{SurfacePoint, View};
@@ -56,6 +57,10 @@ impl Bounded<'_> {
 }
 
 impl Shadow for Bounded<'_> {
+    fn explain(&self, at: &SurfacePoint, key: Key) -> Vec<Explanation> {
+        self.shadow.explain(at, key)
+    }
+
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
         self.shadow.fractions(at, key, out);
         for (point, fraction) in at.iter().zip(out) {

@@ -18,6 +18,7 @@ pub use shadow_map::ShadowMap;
 pub use tags::Tags;
 pub use through::Through;
 
+use crate::Explanation;
 use crate::surfaces::Channel;
 use glam::Vec3;
 use std::sync::Arc;
@@ -51,6 +52,13 @@ pub trait Shadow: Send + Sync {
         }
     }
 
+    /// What is done for one region, by each map that is asked about it: in the order of the maps of a light of several, whose answers may count in
+    /// part. Nothing for shadows that have no map.
+    fn explain(&self, at: &SurfacePoint, key: Key) -> Vec<Explanation> {
+        let _ = (at, key);
+        Vec::new()
+    }
+
     /// The fraction of one region.
     fn fraction(&self, at: &SurfacePoint, key: Key) -> f32 {
         let mut out = [0.0];
@@ -69,6 +77,10 @@ macro_rules! forward {
 
             fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
                 (**self).transmittances(at, key, fractions, out);
+            }
+
+            fn explain(&self, at: &SurfacePoint, key: Key) -> Vec<Explanation> {
+                (**self).explain(at, key)
             }
 
             fn fraction(&self, at: &SurfacePoint, key: Key) -> f32 {

@@ -1,5 +1,6 @@
 use super::several::{add_fractions, add_passes};
 use super::{Shadow, same_length};
+use crate::Explanation;
 use glam::Vec3;
 use umbrage_plane::SurfacePoint;
 use umbrage_sample::Key;
@@ -11,6 +12,10 @@ use umbrage_sample::Key;
 pub struct Through<'a>(pub Vec<Box<dyn Shadow + 'a>>);
 
 impl Shadow for Through<'_> {
+    fn explain(&self, at: &SurfacePoint, key: Key) -> Vec<Explanation> {
+        self.0.iter().flat_map(|shadow| shadow.explain(at, key)).collect()
+    }
+
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]) {
         out.fill(0.0);
         add_fractions(&self.0, at, key, out, |dark, more| *dark += (1.0 - *dark) * more);

@@ -4,6 +4,7 @@
 mod around;
 mod burley;
 mod deep;
+mod explained;
 mod reeves;
 mod tags;
 mod traps;

@@ -1,0 +1,124 @@
+//! What is wrong with a region, by name.
+
+use std::fmt;
+use umbrage_plane::Receiver;
+use umbrage_recipe::Recipe;
+use umbrage_shadow::Explanation;
+
+/// Below and above this truth counts as lit and as dark.
+const LIT: f32 = 0.05;
+const DARK: f32 = 0.95;
+
+/// A fault.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// In shadow where truth is lit: the receiver's own surface, or one that is not between, is stored nearer than the receiver.
+    Acne {
+        /// How much nearer, world units, at most.
+        nearer: f64,
+        /// The slope-scaled bias that clears it, texels; `None` where the surface is edge-on.
+        clears: Option<f64>,
+    },
+    /// Lit where truth is dark, and dark without the bias.
+    Detachment {
+        /// From the receiver to what blocks it, along the ray, world units and widths of a texel.
+        gap: f64,
+        texels: f64,
+    },
+    /// Lit where truth is dark, with or without a bias.
+    Leak,
+}
+
+impl Fault {
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Acne { .. } => "acne",
+            Self::Detachment { .. } => "detachment",
+            Self::Leak => "leak",
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let short = crate::bias::short;
+        match self {
+            Self::Acne { nearer, clears } => {
+                write!(
+                    f,
+                    "acne: what truth does not see between is stored up to {} world units nearer; ",
+                    short(*nearer)
+                )?;
+                match clears {
+                    Some(texels) => write!(f, "a slope-scaled bias of {} texels or `auto` clears it", short(*texels)),
+                    None => write!(f, "`auto` clears it"),
+                }
+            }
+            Self::Detachment { gap, texels } => write!(
+                f,
+                "detachment: what blocks the light is {} world units away, {} texels, and the bias passes it; `auto` needs none",
+                short(*gap),
+                short(*texels)
+            ),
+            Self::Leak => {
+                write!(f, "leak: the map knows nothing nearer than the receiver there, with or without a bias")
+            }
+        }
+    }
+}
+
+/// The same recipe without a bias; `None` for one that has none.
+pub fn without_bias(recipe: &Recipe) -> Option<Recipe> {
+    let text = recipe.to_string();
+    let found: Recipe = format!("{text},bias=0").parse().ok()?;
+    (found != *recipe).then_some(found)
+}
+
+/// What a fault is named by.
+#[derive(Clone, Copy, Debug)]
+pub struct Answers {
+    fraction: f32,
+    truth: f32,
+    /// The receiver of the map whose dark taps are stored nearest, and by how much.
+    nearest: Option<(Receiver, f64)>,
+    /// From the receiver to what blocks the light.
+    gap: f64,
+}
+
+impl Answers {
+    /// A region's answer and its truth, the maps that were asked, and the distance to what blocks the light by rays.
+    pub fn new<'a>(fraction: f32, truth: f32, maps: impl Iterator<Item = &'a Explanation>, gap: Option<f64>) -> Self {
+        let nearest = maps.filter_map(|explanation| Some((explanation.receiver?, nearer(explanation))));
+        let nearest = nearest.reduce(|known, other| if other.1 > known.1 { other } else { known });
+        Self { fraction, truth, nearest, gap: gap.unwrap_or(0.0) }
+    }
+}
+
+/// What is wrong with a region; `without` is its fraction without a bias.
+pub fn of(answers: &Answers, without: impl FnOnce() -> anyhow::Result<Option<f32>>) -> anyhow::Result<Option<Fault>> {
+    let Answers { fraction, truth, nearest, gap } = *answers;
+    if truth < LIT && fraction > 0.5 {
+        let nearer = nearest.map_or(0.0, |(_, nearer)| nearer);
+        let step = nearest.map(|(receiver, _)| f64::from(receiver.texel_world.max_element() * receiver.slope));
+        let clears = step.filter(|step| step.is_finite() && *step > 0.0).map(|step| nearer / step);
+        return Ok(Some(Fault::Acne { nearer, clears }));
+    }
+    if truth > DARK && fraction < 0.5 {
+        if without()?.is_none_or(|dark| dark <= 0.5) {
+            return Ok(Some(Fault::Leak));
+        }
+        let texel = nearest.map_or(f64::INFINITY, |(receiver, _)| f64::from(receiver.texel_world.max_element()));
+        return Ok(Some(Fault::Detachment { gap, texels: gap / texel }));
+    }
+    Ok(None)
+}
+
+/// How much nearer to the light than the receiver the nearest dark tap is stored, in the map's own depths.
+fn nearer(explanation: &Explanation) -> f64 {
+    let Some(receiver) = explanation.receiver else { return 0.0 };
+    let taps = explanation.questions.last().map_or(&[][..], |question| &question.taps);
+    let dark = taps.iter().filter(|tap| tap.dark > 0.5 && tap.ruled.is_none());
+    let by_taps = dark.map(|tap| f64::from(receiver.depth - tap.stored)).fold(0.0, f64::max);
+    let votes = explanation.places.iter().filter(|place| place.dark).flat_map(|place| &place.votes);
+    votes.filter(|vote| vote.dark).map(|vote| vote.at_place).fold(by_taps, f64::max)
+}

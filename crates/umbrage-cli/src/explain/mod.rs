@@ -1,0 +1,132 @@
+//! `umbrage explain`.
+
+mod asked;
+mod fault;
+mod owners;
+mod region;
+mod svg;
+mod words;
+
+use crate::args::{Cli, ExplainArgs};
+use crate::lamp;
+use crate::shadow::{self, Turned};
+use crate::shell::{Shell, Usage};
+use crate::stage::{Lamp, Stage};
+use anyhow::Context;
+use asked::{Asked, Recorder};
+use owners::Owners;
+use region::Region;
+use serde_json::json;
+use std::cell::OnceCell;
+use umbrage_io::write_bytes;
+use umbrage_oracle::Geometry;
+use umbrage_plane::TexelRect;
+use umbrage_recipe::Recipe;
+use umbrage_render::{Frame, picture_where};
+use umbrage_shadow::{Explanation, Shadow};
+use words::Words;
+
+pub fn run(cli: &Cli, args: &ExplainArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {
+    let stage = Stage::new(&args.source, &args.scene, cli.max_memory, args.samples, shell)?;
+    let size = stage.scene.camera.size();
+    if let Some([x, y]) = args.pixel.iter().find(|[x, y]| *x >= size.x || *y >= size.y) {
+        let problem =
+            format!("--pixel {x},{y}: the picture has {} columns and {} rows, counted from 0", size.x, size.y);
+        return Err(Usage(problem).into());
+    }
+    if args.output.is_some() && (stage.lamps.len() > 1 || args.pixel.len() > 1) {
+        return Err(Usage("-o: one pixel is drawn under one light; --light NAME chooses it".into()).into());
+    }
+    let geometry = Geometry::new(&stage.scene, &stage.scene.camera);
+    let mut all = Vec::new();
+    for lamp in &stage.lamps {
+        let recipe = stage.recipe_of(lamp)?;
+        let shadow = lamp::shadow_of(&stage, lamp, &recipe)?.shadow;
+        let frame = shadow::frame(args.samples, cli.seed, args.scene.frame);
+        let light = Lit { stage: &stage, lamp, recipe, shadow, unbiased: OnceCell::new(), frame, geometry: &geometry };
+        for &at in &args.pixel {
+            let words = light.explained(at)?;
+            if let Some(path) = &args.output {
+                let drawn = words.regions.first().context("-o: the pixel sees nothing")?.drawn();
+                write_bytes(path, drawn.context("-o: no texel was asked")?.as_bytes())?;
+            }
+            if cli.json {
+                all.push(words.json());
+            } else {
+                write!(shell.out, "{words}")?;
+            }
+        }
+    }
+    if cli.json {
+        writeln!(shell.out, "{}", json!({ "pixels": all }))?;
+    }
+    Ok(())
+}
+
+/// A light whose shadow is explained.
+struct Lit<'a> {
+    stage: &'a Stage,
+    lamp: &'a Lamp,
+    recipe: Recipe,
+    shadow: Box<dyn Shadow>,
+    /// The same without a bias, once it is wanted; `None` for a recipe that has none.
+    unbiased: OnceCell<Option<Box<dyn Shadow>>>,
+    frame: Frame,
+    geometry: &'a Geometry,
+}
+
+impl Lit<'_> {
+    fn explained(&self, at: [u32; 2]) -> anyhow::Result<Words<'_>> {
+        let index = at[1] * self.stage.scene.camera.size().x + at[0];
+        let recorder = Recorder::new(&*self.shadow);
+        let value = self.pixel(&recorder, &self.frame, index);
+        let truth = shadow::ray(self.stage, self.lamp, self.geometry, |ray| {
+            self.pixel(&ray, &Frame { every_sample: true, ..self.frame }, index)
+        });
+        let regions = recorder.asked()?.iter().map(|asked| self.region(asked)).collect::<anyhow::Result<_>>()?;
+        Ok(Words { at, light: &self.lamp.name, recipe: self.recipe.to_string(), value, truth, regions })
+    }
+
+    /// A pixel as `umbrage shadow` draws it.
+    fn pixel(&self, shadow: &dyn Shadow, frame: &Frame, index: u32) -> f32 {
+        let one = shadow::lit_alone(&self.stage.scene, self.lamp);
+        let turned = Turned { shadow, light: &one.lights[0].view };
+        picture_where(&one, &[&turned], frame, |other| other == index).shadow[0][index as usize]
+    }
+
+    fn region(&self, asked: &Asked) -> anyhow::Result<Region> {
+        let scene = &self.stage.scene;
+        let name =
+            |object: u32| scene.objects.get(object as usize).map_or_else(String::new, |object| object.name.clone());
+        let owned = |explanation: Explanation| {
+            let window = svg::window(&explanation).unwrap_or(TexelRect::EMPTY);
+            let owners = Owners::of(scene, &explanation.view, window);
+            (explanation, owners)
+        };
+        let maps = self.shadow.explain(&asked.point, asked.key).into_iter().map(owned).collect();
+        let light = scene.lights[self.lamp.light].view.light();
+        let blockers = asked::blockers(self.geometry, &asked.point, light).into_iter();
+        let mut region = Region {
+            asked: *asked,
+            object: name(asked.point.object),
+            fraction: asked.fraction,
+            maps,
+            blockers: blockers.map(|(object, distance)| (name(object), distance)).collect(),
+            truth: shadow::ray(self.stage, self.lamp, self.geometry, |ray| ray.at(&asked.point)),
+            fault: None,
+        };
+        region.fault = fault::of(&region.answers(), || self.without_bias(asked))?;
+        Ok(region)
+    }
+
+    /// What the same recipe answers without a bias.
+    fn without_bias(&self, asked: &Asked) -> anyhow::Result<Option<f32>> {
+        if self.unbiased.get().is_none() {
+            let recipe = fault::without_bias(&self.recipe);
+            let made = recipe.map(|recipe| lamp::shadow_of(self.stage, self.lamp, &recipe)).transpose()?;
+            let _ = self.unbiased.set(made.map(|made| made.shadow));
+        }
+        let unbiased = self.unbiased.get().and_then(Option::as_ref);
+        Ok(unbiased.map(|shadow| shadow.fraction(&asked.point, asked.key)))
+    }
+}
