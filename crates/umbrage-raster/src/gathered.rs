@@ -1,50 +1,43 @@
 //! The facets that may reach a region, found once for several questions.
 
-use crate::setup::{SUBTEXELS, bounds};
+use crate::setup::{Piece, SUBTEXELS, bounds};
 use crate::{BIN, Bins};
-use glam::IVec2;
-use umbrage_plane::{Facet, TexelRect};
+use glam::{DVec2, IVec2};
+use umbrage_plane::{Affine, Facet, TexelRect};
 
-/// Regions that more pieces may reach are not asked what is nearest.
-const MOST_ASKED: usize = 32;
-
-/// What is nearest all over a region.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Seen {
-    /// Nothing reaches it.
-    Nothing,
-    /// One facet covers it, and lies before whatever else reaches it.
-    One(Facet),
-    /// It may be several, or one with gaps.
-    Several,
-}
-
-/// The facets that may reach a region, in the order of their triangles: found once, for several questions about parts of it.
+/// The facets that may reach a region, in the order of their triangles: found once, for several questions about parts of it. Their numbers are 0-based,
+/// in that order.
 #[derive(Clone, Debug)]
 pub struct Gathered<'a> {
     pub(crate) bins: &'a Bins,
-    pub(crate) outlines: Vec<Outline>,
+    pub(crate) outlines: Vec<Outline<'a>>,
 }
 
 /// Where a piece may be.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Outline {
-    pub piece: u32,
+pub(crate) struct Outline<'a> {
+    number: u32,
+    piece: &'a Piece,
+    pub corners: &'a [IVec2],
     /// The least and the greatest coordinates of its corners, in 1/256 texel.
     pub low: IVec2,
     pub high: IVec2,
 }
 
-impl Outline {
+impl Outline<'_> {
     #[inline(always)]
-    pub fn touches(&self, region: TexelRect) -> bool {
+    fn touches(&self, region: TexelRect) -> bool {
         self.low.cmplt(region.max).all() && self.high.cmpge(region.min).all()
     }
+}
 
-    #[inline(always)]
-    pub fn bounds(&self) -> TexelRect {
-        TexelRect::new(self.low, self.high + 1)
-    }
+/// A facet that may be seen in a region.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shown {
+    /// Its number among those that were gathered.
+    pub number: u32,
+    /// Whether it covers all of the region.
+    pub covers: bool,
 }
 
 impl Bins {
@@ -54,21 +47,17 @@ impl Bins {
         let (from, to) = (region.min.max(IVec2::ZERO) / side, (region.max - 1).div_euclid(IVec2::splat(side)));
         let mut outlines = Vec::new();
         for tile in TexelRect::new(from, to + 1).texels() {
-            outlines.extend(self.list(tile.as_uvec2()).iter().filter_map(|&piece| {
-                let (low, high) = bounds(self.piece(piece).1);
-                let outline = Outline { piece, low, high };
+            outlines.extend(self.list(tile.as_uvec2()).iter().filter_map(|&number| {
+                let (piece, corners) = self.piece(number);
+                let (low, high) = bounds(corners);
+                let outline = Outline { number, piece, corners, low, high };
                 outline.touches(region).then_some(outline)
             }));
         }
         // The lists are sorted, and a stable sort merges what is.
-        outlines.sort_by_key(|outline| outline.piece);
-        outlines.dedup_by_key(|outline| outline.piece);
+        outlines.sort_by_key(|outline| outline.number);
+        outlines.dedup_by_key(|outline| outline.number);
         Gathered { bins: self, outlines }
-    }
-
-    /// What is nearest all over a region (in 1/256 texel), where its corners decide that: then no sample in it needs to be asked.
-    pub fn seen(&self, region: TexelRect) -> Seen {
-        self.gathered(region).seen(region, |_| true)
     }
 }
 
@@ -83,49 +72,91 @@ impl Gathered<'_> {
         self.outlines.is_empty()
     }
 
-    /// [`Bins::seen`] of a part of what was gathered, where a facet that covers the part counts as doing so only if it `fills` what it covers.
-    pub fn seen(&self, region: TexelRect, fills: impl Fn(&Facet) -> bool) -> Seen {
-        let mut asked = Vec::with_capacity(MOST_ASKED);
-        for outline in self.outlines.iter().filter(|outline| outline.touches(region)) {
-            if asked.len() == MOST_ASKED {
-                return Seen::Several;
-            }
-            asked.push(outline);
-        }
-        if asked.is_empty() {
-            return Seen::Nothing;
-        }
-        let corners =
-            [region.min, IVec2::new(region.max.x, region.min.y), region.max, IVec2::new(region.min.x, region.max.y)];
-        let keys = |facet: &Facet| corners.map(|corner| facet.plane.at(corner.as_dvec2() / f64::from(SUBTEXELS)));
-        let mut nearest: Option<(Facet, [f64; 4])> = None;
-        for outline in &asked {
-            // Strictly inside is inside the bounding box.
-            if !(outline.low.cmplt(region.min).all() && outline.high.cmpgt(region.max).all()) {
+    /// A facet by its number.
+    ///
+    /// # Panics
+    /// When there is none of that number.
+    #[inline(always)]
+    pub fn facet(&self, number: u32) -> Facet {
+        self.outlines[number as usize].piece.facet()
+    }
+
+    /// The least and the greatest coordinates of a facet's corners, in 1/256 texel.
+    ///
+    /// # Panics
+    /// When there is none of that number.
+    #[inline(always)]
+    pub fn bounds(&self, number: u32) -> (IVec2, IVec2) {
+        let outline = &self.outlines[number as usize];
+        (outline.low, outline.high)
+    }
+
+    /// Those `among` the facets that may be seen in a part of the region (in 1/256 texel), in the same order: their outlines reach it, and they do
+    /// not lie behind another one all over it, one that covers the part and `fills` what it covers. `shown` is emptied first.
+    ///
+    /// # Panics
+    /// When there is none of one of the numbers.
+    pub fn shown(
+        &self,
+        part: TexelRect,
+        among: impl IntoIterator<Item = u32>,
+        fills: impl Fn(&Facet) -> bool,
+        shown: &mut Vec<Shown>,
+    ) {
+        let corners = [part.min, IVec2::new(part.max.x, part.min.y), part.max, IVec2::new(part.min.x, part.max.y)]
+            .map(|corner| corner.as_dvec2() / f64::from(SUBTEXELS));
+        let mut nearest: Option<(u32, [f64; 4])> = None;
+        shown.clear();
+        for number in among {
+            let outline = &self.outlines[number as usize];
+            if !outline.touches(part) {
                 continue;
             }
-            let (piece, corner) = self.bins.piece(outline.piece);
-            let facet = piece.facet();
-            if corners.iter().all(|at| holds(corner, *at)) && fills(&facet) {
-                let own = keys(&facet);
-                if nearest.is_none_or(|(_, keys)| own[0].total_cmp(&keys[0]).is_lt()) {
-                    nearest = Some((facet, own));
+            let Some(covers) = reaches(outline.corners, part) else { continue };
+            if covers {
+                let facet = outline.piece.facet();
+                let keys = corners.map(|corner| facet.plane.at(corner));
+                if nearest.is_none_or(|(_, nearest)| keys[0].total_cmp(&nearest[0]).is_lt()) && fills(&facet) {
+                    nearest = Some((number, keys));
                 }
             }
+            shown.push(Shown { number, covers });
         }
-        let Some((one, nearest)) = nearest else { return Seen::Several };
-        let behind = |outline: &&Outline| {
-            let other = self.bins.piece(outline.piece).0.facet();
-            other.triangle == one.triangle || nearest.iter().zip(keys(&other)).all(|(a, b)| *a < b)
-        };
-        if asked.iter().all(behind) { Seen::One(one) } else { Seen::Several }
+        if let Some((one, nearest)) = nearest {
+            let of_one = rounding(&self.facet(one).plane, corners[2]);
+            shown.retain(|shown| {
+                let plane = self.facet(shown.number).plane;
+                let least = of_one + rounding(&plane, corners[2]);
+                let behind = || nearest.iter().zip(corners).all(|(nearest, corner)| nearest + least < plane.at(corner));
+                shown.number == one || !behind()
+            });
+        }
     }
 }
 
-/// Whether a triangle surely has a point strictly inside; never for an outline of more corners.
-fn holds(outline: &[IVec2], at: IVec2) -> bool {
-    let side = |a: IVec2, b: IVec2| (b - a).as_i64vec2().perp_dot((at - a).as_i64vec2()).signum();
-    let [a, b, c] = *outline else { return false };
-    let sides = [side(a, b), side(b, c), side(c, a)];
-    sides == [1; 3] || sides == [-1; 3]
+/// More than what a plane's keys may be off by roundings, however they are computed, at places from the map's upper left corner to `most`, in texels.
+#[inline(always)]
+fn rounding(plane: &Affine, most: DVec2) -> f64 {
+    32.0 * f64::EPSILON * (plane.c.abs() + plane.dx.abs() * most.x + plane.dy.abs() * most.y)
+}
+
+/// `None` where an outline surely has no point in a rectangle, otherwise whether the rectangle surely lies inside of it; of an outline of more
+/// than three corners neither is known.
+#[inline(always)]
+fn reaches(outline: &[IVec2], rect: TexelRect) -> Option<bool> {
+    let [a, b, c] = *outline else { return Some(false) };
+    let inward = (b - a).as_i64vec2().perp_dot((c - a).as_i64vec2()).signum();
+    let size = (rect.max - rect.min).as_i64vec2();
+    let mut covers = true;
+    for (a, b) in [(a, b), (b, c), (c, a)] {
+        // Twice the area between the side and a point: what it is at the rectangle's first corner, and how it changes from there.
+        let along = (b - a).as_i64vec2() * inward;
+        let first = along.perp_dot((rect.min - a).as_i64vec2());
+        let (across, down) = (-along.y * size.x, along.x * size.y);
+        if first + across.max(0) + down.max(0) < 0 {
+            return None;
+        }
+        covers &= first + across.min(0) + down.min(0) > 0;
+    }
+    Some(covers)
 }

@@ -52,8 +52,8 @@ mod spans;
 pub use bins::Bins;
 pub use coverage::Coverage;
 pub use fragments::{RUN, each_fragment, each_run};
-pub use gathered::{Gathered, Seen};
-pub use spans::Lines;
+pub use gathered::{Gathered, Shown};
+pub use spans::{Band, Lines};
 
 use glam::DVec3;
 

@@ -1,7 +1,7 @@
 //! What facets cover along the lines of a finer grid: exact, from the same snapped corners as the texels' samples.
 
 use crate::Bins;
-use crate::gathered::Gathered;
+use crate::gathered::{Gathered, Shown};
 use crate::setup::SUBTEXELS;
 use glam::IVec2;
 use std::ops::Range;
@@ -28,7 +28,7 @@ impl Lines {
 }
 
 /// Lines at first + k·2^`shift`, k from 0 to `count`.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Grid {
     first: i32,
     shift: u32,
@@ -57,17 +57,13 @@ struct Crossed {
 }
 
 impl Crossed {
-    /// By no line.
-    const NOWHERE: Self = Self { first: 0, count: 0, at: 0, step: (0, 0), remainder: 0, height: 1 };
-
-    /// The lines of a grid that cross the edge from `a` to `b`, both as (along, across).
+    /// The lines of a grid that cross the edge from `top` to `bottom`, both as (along, across).
     #[inline(always)]
-    fn of(a: IVec2, b: IVec2, grid: Grid) -> Self {
-        let (top, bottom) = if a.y <= b.y { (a, b) } else { (b, a) };
+    fn of(top: IVec2, bottom: IVec2, grid: Grid) -> Self {
         // Lines y with top ≤ y < bottom.
         let (from, to) = (grid.before(top.y), grid.before(bottom.y));
         if from >= to {
-            return Self::NOWHERE;
+            return Self { first: from, count: 0, at: 0, step: (0, 0), remainder: 0, height: 1 };
         }
         let (dx, dy) = (i64::from(bottom.x - top.x), i64::from(bottom.y - top.y));
         // The crossing is before x while dy·(x − top.x) ≥ dx·(y − top.y): from ⌈dx·(y − top.y)/dy⌉ on.
@@ -91,16 +87,15 @@ impl Crossed {
         }
     }
 
-    /// Calls `each` with every line, counted from 0, and the crossing there.
+    /// The crossing at the first of the lines that are left, which then is the next one.
     #[inline(always)]
-    fn each(mut self, mut each: impl FnMut(i32, i32)) {
-        for line in self.first..self.first + self.count {
-            each(line, self.at as i32);
-            // Without a branch, which nobody could predict.
-            let carry = i64::from(self.remainder + self.step.1 >= self.height);
-            self.at += self.step.0 + carry;
-            self.remainder += self.step.1 - carry * self.height;
-        }
+    fn next(&mut self) -> i32 {
+        let at = self.at as i32;
+        // Without a branch, which nobody could predict.
+        let carry = i64::from(self.remainder + self.step.1 >= self.height);
+        self.at += self.step.0 + carry;
+        self.remainder += self.step.1 - carry * self.height;
+        at
     }
 }
 
@@ -129,74 +124,89 @@ impl Bins {
     /// assert_eq!(spans[0], (13 * 256 + 128, 16 * 256..16 * 256 + 128));
     /// ```
     pub fn spans(&self, region: TexelRect, lines: Lines, step: i32, mut sink: impl FnMut(&Facet, i32, Range<i32>)) {
-        let sink = |_: usize, facet: &Facet, line: i32, along: Range<i32>| sink(facet, line, along);
-        self.gathered(region).spans(region, lines, step, |_| true, sink);
+        let gathered = self.gathered(region);
+        let Some(band) = gathered.band(region, lines, step) else { return };
+        for number in 0..gathered.len() as u32 {
+            let facet = gathered.facet(number);
+            let shown = Shown { number, covers: false };
+            band.covered(shown, |line, along| {
+                sink(&facet, band.grid.first + ((line as i32) << band.grid.shift), along);
+            });
+        }
     }
 }
 
-impl Gathered<'_> {
-    /// [`Bins::spans`] of a part of what was gathered, for those facets whose bounding box in 1/256 texel (the last row and column of which
-    /// may be empty) is `wanted`. The first that `sink` is given is the facet's number, 0-based among all that were gathered.
+/// The lines of a grid over a region, and the facets that were gathered there.
+#[derive(Clone, Copy, Debug)]
+pub struct Band<'a> {
+    gathered: &'a Gathered<'a>,
+    lines: Lines,
+    grid: Grid,
+    /// Where the region begins and ends along the lines.
+    low: i32,
+    high: i32,
+}
+
+impl<'a> Gathered<'a> {
+    /// The lines of a grid over a part of what was gathered, as [`Bins::spans`] has them; `None` when there are none.
     #[inline(always)]
-    pub fn spans(
-        &self,
-        region: TexelRect,
-        lines: Lines,
-        step: i32,
-        wanted: impl Fn(TexelRect) -> bool,
-        mut sink: impl FnMut(usize, &Facet, i32, Range<i32>),
-    ) {
+    pub fn band(&'a self, region: TexelRect, lines: Lines, step: i32) -> Option<Band<'a>> {
         debug_assert!((2..=SUBTEXELS).contains(&step) && step & (step - 1) == 0, "a step of {step}");
         let window = self.bins.window();
         let region = region.intersect(TexelRect::new(window.min * SUBTEXELS, window.max * SUBTEXELS));
-        if region.is_empty() {
-            return;
-        }
         let (low, high) = (lines.turned(region.min), lines.turned(region.max));
         let (first, shift) = (low.y + (step / 2 - low.y).rem_euclid(step), step.ilog2());
         let count = (high.y - first + step - 1) >> shift;
-        if count <= 0 {
+        let some = !region.is_empty() && count > 0;
+        some.then_some(Band { gathered: self, lines, grid: Grid { first, shift, count }, low: low.x, high: high.x })
+    }
+}
+
+impl Band<'_> {
+    /// Calls `sink` with what a facet covers of the lines, in their order: the number of a line, 0-based, and the half-open interval of coordinates
+    /// along it, in 1/256 texel. Of a facet of which it is not known that it covers the region, `covers` is false.
+    #[inline(always)]
+    pub fn covered(&self, shown: Shown, mut sink: impl FnMut(usize, Range<i32>)) {
+        let Self { lines, grid, low, high, .. } = *self;
+        if shown.covers {
+            for line in 0..grid.count as usize {
+                sink(line, low..high);
+            }
             return;
         }
-        let grid = Grid { first, shift, count };
-        let mut crossings: Vec<Vec<i32>> = Vec::new();
-        let mut ends = vec![[0; 2]; count as usize];
-        for (number, outline) in self.outlines.iter().enumerate() {
-            let (from, to) = (grid.before(lines.turned(outline.low).y), grid.before(lines.turned(outline.high).y));
-            if from >= to || !outline.touches(region) || !wanted(outline.bounds()) {
-                continue;
-            }
-            let (piece, corners) = self.bins.piece(outline.piece);
-            let facet = piece.facet();
-            // Three sides, as nearly every piece has, are crossed by a line twice or not at all.
-            let triangle = corners.len() == 3;
-            if let &[a, b, c] = corners {
-                let (a, b, c) = (lines.turned(a), lines.turned(b), lines.turned(c));
-                for (a, b) in [(a, b), (b, c), (c, a)] {
-                    Crossed::of(a, b, grid).each(|line, at| {
-                        let end = &mut ends[line as usize];
-                        *end = [at, end[0]];
-                    });
+        match *self.gathered.outlines[shown.number as usize].corners {
+            [a, b, c] => {
+                let mut corners = [lines.turned(a), lines.turned(b), lines.turned(c)];
+                corners.sort_unstable_by_key(|corner| corner.y);
+                let [top, middle, bottom] = corners;
+                let mut long = Crossed::of(top, bottom, grid);
+                for (top, bottom) in [(top, middle), (middle, bottom)] {
+                    let mut short = Crossed::of(top, bottom, grid);
+                    for line in short.first..short.first + short.count {
+                        let (a, b) = (long.next(), short.next());
+                        let (from, to) = (a.min(b).max(low), a.max(b).min(high));
+                        if from < to {
+                            sink(line as usize, from..to);
+                        }
+                    }
                 }
-            } else {
-                crossings.iter_mut().for_each(Vec::clear);
-                crossings.resize_with(count as usize, Vec::new);
+            }
+            ref corners => {
+                let mut crossings = vec![Vec::new(); grid.count as usize];
                 for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-                    Crossed::of(lines.turned(*a), lines.turned(*b), grid)
-                        .each(|line, at| crossings[line as usize].push(at));
+                    let (a, b) = (lines.turned(*a), lines.turned(*b));
+                    let mut edge = if a.y <= b.y { Crossed::of(a, b, grid) } else { Crossed::of(b, a, grid) };
+                    for line in edge.first..edge.first + edge.count {
+                        crossings[line as usize].push(edge.next());
+                    }
                 }
-                for crossed in &mut crossings {
+                for (line, mut crossed) in (0..).zip(crossings) {
                     crossed.sort_unstable();
-                }
-            }
-            for line in from..to {
-                let [a, b] = ends[line as usize];
-                let two = [a.min(b), a.max(b)];
-                let crossed = if triangle { &two } else { crossings[line as usize].as_slice() };
-                for pair in crossed.chunks_exact(2) {
-                    let (from, to) = (pair[0].max(low.x), pair[1].min(high.x));
-                    if from < to {
-                        sink(number, &facet, first + (line << shift), from..to);
+                    for [from, to] in crossed.as_chunks().0 {
+                        let (from, to) = ((*from).max(low), (*to).min(high));
+                        if from < to {
+                            sink(line, from..to);
+                        }
                     }
                 }
             }

@@ -1,8 +1,9 @@
 //! What may be seen in a tile.
 
 use crate::masks::Masks;
-use umbrage_plane::TexelRect;
-use umbrage_raster::{Gathered, Seen};
+use glam::DVec2;
+use umbrage_plane::{Facet, TexelRect};
+use umbrage_raster::{Gathered, Shown};
 
 /// The facets that may reach a tile, and where they have holes.
 pub(super) struct Casters<'a> {
@@ -11,8 +12,22 @@ pub(super) struct Casters<'a> {
 }
 
 impl Casters<'_> {
-    /// What is nearest all over a region (in 1/256 texel), where its corners decide that. What may have holes never does.
-    pub fn seen(&self, region: TexelRect) -> Seen {
-        self.gathered.seen(region, |facet| self.masks.of(facet).is_none())
+    /// Those among the facets that may be seen in a region (in 1/256 texel). What may have holes hides nothing.
+    pub fn shown(&self, region: TexelRect, among: impl IntoIterator<Item = u32>, shown: &mut Vec<Shown>) {
+        self.gathered.shown(region, among, |facet| self.masks.of(facet).is_none(), shown);
+    }
+
+    /// The facet that is all that is shown, and that all over the region.
+    pub fn one(&self, shown: &[Shown]) -> Option<u32> {
+        match *shown {
+            [Shown { number, covers: true }] if self.masks.of(&self.gathered.facet(number)).is_none() => Some(number),
+            _ => None,
+        }
+    }
+
+    /// Whether anything of a facet is at a place of the map, in texels.
+    #[cold]
+    pub fn is_there(&self, facet: &Facet, at: DVec2) -> bool {
+        self.masks.of(facet).is_none_or(|masked| self.masks.is_there(masked, facet, at))
     }
 }

@@ -18,7 +18,7 @@ use budget::Level;
 use glam::{IVec2, UVec2};
 use merged::merged;
 use rayon::prelude::*;
-use refined::Refined;
+use refined::{Refined, Scratch};
 use std::collections::HashMap;
 use std::sync::Arc;
 use umbrage_depth::{FacetCells, FacetDepths, FacetMap, FacetRule, FacetTile, First, NO_FACET, Stored};
@@ -54,23 +54,27 @@ pub fn bake_facets<'a, R: FacetRule>(
         (stored, _) => stored,
     };
     let depths = FacetDepths::of(view);
-    let tiles = by_tile(view, |tile| {
-        let cells = pass.cells(&bins, tile).0?;
-        let origin = (tile * BIN).as_ivec2();
-        let mut texels = vec![NO_FACET; CELLS];
-        let (mut planes, mut index) = (Vec::new(), HashMap::new());
-        masks.tile(&bins, tile, |facet, coverage| {
-            each_fragment(view, origin, facet, coverage, |cell, _, key| {
-                if texels[cell] == NO_FACET && key == rule.key(&cells[cell]) {
-                    texels[cell] = *index.entry(facet.triangle).or_insert_with(|| {
-                        planes.push(facet.plane);
-                        planes.len() as u32 - 1
-                    });
-                }
+    let tiles = by_tile(
+        view,
+        || (),
+        |(), tile| {
+            let cells = pass.cells(&bins, tile).0?;
+            let origin = (tile * BIN).as_ivec2();
+            let mut texels = vec![NO_FACET; CELLS];
+            let (mut planes, mut index) = (Vec::new(), HashMap::new());
+            masks.tile(&bins, tile, |facet, coverage| {
+                each_fragment(view, origin, facet, coverage, |cell, _, key| {
+                    if texels[cell] == NO_FACET && key == rule.key(&cells[cell]) {
+                        texels[cell] = *index.entry(facet.triangle).or_insert_with(|| {
+                            planes.push(facet.plane);
+                            planes.len() as u32 - 1
+                        });
+                    }
+                });
             });
-        });
-        pack(view, &depths, tile, 1, &FacetCells { planes: &planes, texels: &texels, blocks: &[] })
-    });
+            pack(view, &depths, tile, 1, &FacetCells { planes: &planes, texels: &texels, blocks: &[] })
+        },
+    );
     BakedFacets { map: Arc::new(FacetMap::from_tiles(*view, stored, 1, 1, tiles)), stats: bins.stats() }
 }
 
@@ -100,9 +104,9 @@ pub fn bake_refined<'a>(
     let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
     let bins = Bins::for_spans(view, TexelRect::of_size(view.size()), Cull::None, triangles);
     let depths = FacetDepths::of(view);
-    let kept = |tile: UVec2, level: Level| {
+    let kept = |tile: UVec2, level: Level, scratch: &mut Scratch| {
         let refinement = &refinement.with_tolerance(refinement.tolerance * level.tolerance);
-        let found = Refined { view, bins: &bins, masks: &masks, refinement }.tile(tile, level.parts)?;
+        let found = Refined { view, bins: &bins, masks: &masks, refinement }.tile(tile, level.parts, scratch)?;
         let cells = found.cells();
         if !level.merged {
             return pack(view, &depths, tile, fine, &cells);
@@ -111,17 +115,24 @@ pub fn bake_refined<'a>(
         pack(view, &depths, tile, fine, &FacetCells { texels: &texels, blocks: &blocks, ..cells })
     };
     let grid = view.size().map(|side| side.div_ceil(BIN));
-    let again = |index: usize, level| kept(UVec2::new(index as u32 % grid.x, index as u32 / grid.x), level);
-    let tiles = by_tile(view, |tile| kept(tile, Level::ALL));
+    let again = |index: usize, level| {
+        kept(UVec2::new(index as u32 % grid.x, index as u32 / grid.x), level, &mut Scratch::default())
+    };
+    let tiles = by_tile(view, Scratch::default, |scratch, tile| kept(tile, Level::ALL, scratch));
     let tiles = budget::within(view.size().element_product() as usize, tiles, again);
     let map = FacetMap::from_tiles(*view, umbrage_depth::DepthRule::stored(&First), fine, slots, tiles);
     BakedFacets { map: Arc::new(map), stats: bins.stats() }
 }
 
-/// All tiles of a map, in parallel.
-fn by_tile(view: &View, tile: impl Fn(UVec2) -> Option<FacetTile> + Sync) -> Vec<Option<FacetTile>> {
+/// All tiles of a map, in parallel; `scratch` makes what one after the other may use.
+fn by_tile<S>(
+    view: &View,
+    scratch: impl Fn() -> S + Sync + Send,
+    tile: impl Fn(&mut S, UVec2) -> Option<FacetTile> + Sync + Send,
+) -> Vec<Option<FacetTile>> {
     let grid = view.size().map(|side| side.div_ceil(BIN));
-    (0..grid.element_product()).into_par_iter().map(|index| tile(UVec2::new(index % grid.x, index / grid.x))).collect()
+    let indices = (0..grid.element_product()).into_par_iter();
+    indices.map_init(scratch, |scratch, index| tile(scratch, UVec2::new(index % grid.x, index / grid.x))).collect()
 }
 
 fn pack(view: &View, depths: &FacetDepths, tile: UVec2, fine: u32, cells: &FacetCells<'_>) -> Option<FacetTile> {

@@ -2,14 +2,14 @@
 
 use super::casters::Casters;
 use super::links::Links;
-use super::nearest::{Grid, Planes, SUBTEXELS, Samples, place_of, texels};
+use super::nearest::{Grid, SUBTEXELS, Spans, place_of, texels};
 use super::refinement::Refinement;
 use super::surface::Surface;
 use crate::masks::Masks;
 use glam::{IVec2, UVec2};
 use umbrage_depth::{FacetBlock, FacetCells, NO_FACET};
-use umbrage_plane::{Affine, TexelRect, View};
-use umbrage_raster::{BIN, Bins, Seen};
+use umbrage_plane::{Affine, TexelRect, View, vectorized};
+use umbrage_raster::{BIN, Bins, Lines, Shown};
 
 const SIDE: usize = BIN as usize;
 const CELLS: usize = SIDE * SIDE;
@@ -27,11 +27,14 @@ impl Found {
     }
 }
 
-/// Texels along a side of what is looked at together, in a tile that few triangles reach: where one facet is seen all over, nothing is sampled.
+/// Texels along a side of what is looked at together: where one facet is seen all over, nothing is sampled.
 const PART: usize = 8;
 
-/// A tile of more triangles is not looked at by parts, each of which would go through them all.
-const MOST_FOR_PARTS: usize = 64;
+/// In a tile that more triangles reach, the keys of all samples begin at the tile's left side, not at that of each part.
+const CROWDED: usize = 64;
+
+/// Parts along a tile's side.
+const PARTS: usize = SIDE / PART;
 
 /// What of a tile is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +43,17 @@ pub(super) enum Parts {
     All,
     /// Texels alone.
     Texels,
+}
+
+/// What is written anew for each tile, and kept so that nothing is allocated for it.
+#[derive(Default)]
+pub(super) struct Scratch {
+    shown: Vec<Shown>,
+    /// The facets that may reach each part.
+    lists: Vec<Vec<u32>>,
+    rows: Spans,
+    columns: Spans,
+    samples: Vec<u32>,
 }
 
 /// What a refined map is made of.
@@ -52,97 +66,157 @@ pub(super) struct Refined<'a> {
 
 impl Refined<'_> {
     /// A tile's texels, samples and links; `None` when nothing reaches it.
-    pub fn tile(&self, tile: UVec2, parts: Parts) -> Option<Found> {
-        let Self { view, bins, masks, refinement } = *self;
-        if bins.is_empty_tile(tile) {
+    pub fn tile(&self, tile: UVec2, parts: Parts, scratch: &mut Scratch) -> Option<Found> {
+        if self.bins.is_empty_tile(tile) {
             return None;
         }
+        vectorized!(_ => self.found(tile, parts, scratch))
+    }
+
+    #[inline(always)]
+    fn found(&self, tile: UVec2, parts: Parts, scratch: &mut Scratch) -> Option<Found> {
+        let Self { view, bins, masks, refinement } = *self;
         let origin = (tile * BIN).as_ivec2();
         let own = TexelRect::new(origin * SUBTEXELS, (origin + BIN as i32) * SUBTEXELS);
-        let whole = TexelRect::new(own.min, own.max + SUBTEXELS / refinement.fine as i32);
+        let (step, fine) = (SUBTEXELS / refinement.fine as i32, refinement.fine as usize);
+        let whole = TexelRect::new(own.min, own.max + step);
         let casters = Casters { gathered: bins.gathered(whole), masks };
-        if let Seen::One(facet) = casters.seen(whole) {
-            let on_map = |texel: usize| (origin + place_of(texel, SIDE)).cmplt(view.size().as_ivec2()).all();
-            let texels = (0..CELLS).map(|texel| if on_map(texel) { 0 } else { NO_FACET }).collect();
-            return Some(Found { planes: vec![facet.plane], texels, blocks: Vec::new() });
+        let all = 0..casters.gathered.len() as u32;
+        let Scratch { shown, lists, rows, columns, samples } = scratch;
+        casters.shown(whole, all.clone(), shown);
+        let on_map = |texel: IVec2| (origin + texel).cmplt(view.size().as_ivec2()).all();
+        if let Some(one) = casters.one(shown) {
+            let plane = casters.gathered.facet(one).plane;
+            let texel = |texel: usize| if on_map(place_of(texel, SIDE)) { 0 } else { NO_FACET };
+            let is_whole = on_map(IVec2::splat(SIDE as i32 - 1));
+            let texels = if is_whole { vec![0; CELLS] } else { (0..CELLS).map(texel).collect() };
+            return Some(Found { planes: vec![plane], texels, blocks: Vec::new() });
         }
-        let mut planes = Planes::of(casters.gathered.len());
-        let first = own.min + SUBTEXELS / 2;
-        let centres = Grid { first, step: SUBTEXELS, parts: 1, shift: SIDE.ilog2(), beyond: 0 };
-        let texels = Samples::of(&casters, own, centres, |_| true, &mut planes);
-        let texels = texels.part(0).map_or_else(Vec::new, |(facets, _)| facets.to_vec());
+        let planes: Vec<Affine> = all.map(|number| casters.gathered.facet(number).plane).collect();
+        lists.resize_with(PARTS * PARTS, Vec::new);
+        lists.iter_mut().for_each(Vec::clear);
+        for Shown { number, .. } in shown.drain(..) {
+            let (low, high) = casters.gathered.bounds(number);
+            let part = |at: IVec2| (at - own.min) / (PART as i32 * SUBTEXELS);
+            let (from, to) =
+                (part(low.max(own.min) - step).max(IVec2::ZERO), part(high).min(IVec2::splat(PARTS as i32 - 1)));
+            for part in TexelRect::new(from, to + 1).texels() {
+                lists[part.y as usize * PARTS + part.x as usize].push(number);
+            }
+        }
+        let crowded = bins.reaching(tile) > CROWDED;
+        let mut texels = vec![NO_FACET; CELLS];
         let mut blocks = Vec::new();
-        if parts == Parts::All {
-            let (step, fine) = (SUBTEXELS / refinement.fine as i32, refinement.fine as usize);
-            let side = if bins.reaching(tile) > MOST_FOR_PARTS { SIDE } else { PART };
-            // One sample more to the right and downward: what lies just beyond a texel belongs to the question whether it is refined.
-            let grid =
-                Grid { first: own.min + step / 2, step, parts: SIDE / side, shift: (side * fine).ilog2(), beyond: 1 };
-            let several = |part: usize| {
-                let min = own.min + SUBTEXELS * side as i32 * place_of(part, grid.parts);
-                casters.seen(TexelRect::new(min, min + SUBTEXELS * side as i32 + step)) == Seen::Several
+        let surface = Surface { view, planes: &planes, tolerance: refinement.tolerance };
+        let side = PART * fine + 1;
+        samples.resize(side * side, NO_FACET);
+        for (part, list) in lists.iter().enumerate() {
+            let first = place_of(part, PARTS) * PART as i32;
+            let min = (origin + first) * SUBTEXELS;
+            let region = TexelRect::new(min, min + PART as i32 * SUBTEXELS);
+            let beyond = TexelRect::new(min, region.max + step);
+            casters.shown(beyond, list.iter().copied(), shown);
+            if shown.is_empty() {
+                continue;
+            }
+            let mut put = |y: usize, facets: &[u32]| {
+                texels[(first.y as usize + y) * SIDE + first.x as usize..][..PART].copy_from_slice(facets);
             };
-            let samples = Samples::of(&casters, whole, grid, several, &mut planes);
-            let surface = Surface { view, planes: &planes.planes, tolerance: refinement.tolerance };
-            let refine = Refine { surface: &surface, samples: &samples, texels: &texels, origin, fine };
-            (0..grid.parts.pow(2)).for_each(|part| refine.part(part, &mut blocks));
-            blocks.sort_unstable_by_key(|block: &FacetBlock| block.texel);
-            let slots = refinement.slots as i32;
-            let links = Links { casters: &casters, surface: &surface, samples: &samples, region: whole, slots, fine };
-            links.fill(&mut blocks);
+            if let Some(one) = casters.one(shown) {
+                for y in 0..PART {
+                    let row: [u32; PART] = std::array::from_fn(|x| {
+                        if on_map(first + IVec2::new(x as i32, y as i32)) { one } else { NO_FACET }
+                    });
+                    put(y, &row);
+                }
+                continue;
+            }
+            rows.set(&casters, region, Lines::Rows, SUBTEXELS, PART, shown);
+            let centres = Grid { first: min + SUBTEXELS / 2, step: SUBTEXELS, side: PART };
+            centres.nearest(&casters, &planes, rows, own.min.x + SUBTEXELS / 2, put);
+            if parts == Parts::Texels {
+                continue;
+            }
+            rows.set(&casters, beyond, Lines::Rows, step, side, shown);
+            let grid = Grid { first: min + step / 2, step, side };
+            let from = if crowded { own.min.x + step / 2 } else { grid.first.x };
+            grid.nearest(&casters, &planes, rows, from, |y, facets| {
+                samples[y * side..][..side].copy_from_slice(facets);
+            });
+            let before = blocks.len();
+            let refine = Refine { surface: &surface, samples, grid, texels: &texels, origin, first, fine };
+            refine.part(&mut blocks);
+            if blocks.len() > before {
+                columns.set(&casters, beyond, Lines::Columns, step, side, shown);
+                let slots = refinement.slots as i32;
+                let links = Links {
+                    casters: &casters,
+                    surface: &surface,
+                    samples,
+                    grid,
+                    first,
+                    spans: [rows, columns],
+                    slots,
+                    fine,
+                };
+                links.fill(&mut blocks[before..]);
+            }
         }
+        blocks.sort_unstable_by_key(|block: &FacetBlock| block.texel);
         let nothing = blocks.is_empty() && texels.iter().all(|facet| *facet == NO_FACET);
-        (!nothing).then_some(Found { planes: planes.planes, texels, blocks })
+        (!nothing).then_some(Found { planes, texels, blocks })
     }
 }
 
-/// A tile's texels and samples.
+/// A part's samples, and its tile's texels.
 struct Refine<'a> {
     surface: &'a Surface<'a>,
-    samples: &'a Samples,
+    samples: &'a [u32],
+    grid: Grid,
     /// The planes of the texels.
     texels: &'a [u32],
-    /// The tile's first texel.
+    /// The tile's first texel, and the part's in the tile.
     origin: IVec2,
+    first: IVec2,
     /// Samples along a texel's side.
     fine: usize,
 }
 
 impl Refine<'_> {
     /// Adds the blocks of those texels of a part that one plane does not do for.
-    fn part(&self, part: usize, blocks: &mut Vec<FacetBlock>) {
-        let Some((samples, columns)) = self.samples.part(part) else { return };
-        let (grid, fine, map) = (self.samples.grid, self.fine, self.surface.view.size());
-        // The part's first sample and texel in the tile, and its texels along a side.
-        let corner = place_of(part, grid.parts).as_usizevec2() * grid.side();
-        let (first, side) = (corner.as_ivec2() / fine as i32, grid.side() / fine);
-        let place = |sample: usize| texels(grid.place([corner.x + sample % columns, corner.y + sample / columns]));
-        for within in TexelRect::of_size(UVec2::splat(side as u32)).texels() {
-            let texel = first + within;
+    #[inline(always)]
+    fn part(&self, blocks: &mut Vec<FacetBlock>) {
+        let (grid, fine, map) = (self.grid, self.fine, self.surface.view.size());
+        let columns = grid.side;
+        for within in TexelRect::of_size(UVec2::splat(PART as u32)).texels() {
+            let texel = self.first + within;
             if (self.origin + texel).cmpge(map.as_ivec2()).any() {
                 continue;
             }
             let texel = (texel.y * BIN as i32 + texel.x) as usize;
             let own = self.texels[texel];
             let first = within.as_usizevec2() * fine;
-            let row = |y: usize, count: usize| &samples[(first.y + y) * columns + first.x..][..count];
+            let row = |y: usize, count: usize| &self.samples[(first.y + y) * columns + first.x..][..count];
+            let mut width = None;
+            let mut agrees = |x: usize, y: usize, seen: u32| {
+                let place = grid.place([first.x + x, first.y + y]);
+                // Nothing lies beyond the map, and its border does not count as an edge.
+                let on_map = place.cmplt(map.as_ivec2() * SUBTEXELS).all();
+                !on_map || self.surface.agree(own, seen, texels(place), &mut width)
+            };
             // The texel's samples, and the first beyond its right and lower side.
             let around = fine + 1;
-            if (0..around).all(|y| row(y, around).iter().all(|seen| *seen == own)) {
+            let mut is_flat = true;
+            for y in 0..around {
+                for (x, &seen) in row(y, around).iter().enumerate() {
+                    is_flat = is_flat && (seen == own || agrees(x, y, seen));
+                }
+            }
+            if is_flat {
                 continue;
             }
-            // Nothing lies beyond the map, and its border does not count as an edge.
-            let on_map = |sample: usize| place(sample).cmplt(map.as_dvec2()).all();
-            let mut width = None;
-            let mut agrees = |k: usize| {
-                let sample = (first.y + k / around) * columns + first.x + k % around;
-                let seen = samples[sample];
-                seen == own || !on_map(sample) || self.surface.agree(own, seen, place(sample), &mut width)
-            };
-            if (0..around.pow(2)).all(&mut agrees) {
-                continue;
-            }
-            let samples = (0..fine).flat_map(|y| row(y, fine)).copied().collect();
+            let mut samples = Vec::with_capacity(fine * fine);
+            (0..fine).for_each(|y| samples.extend_from_slice(row(y, fine)));
             blocks.push(FacetBlock { texel: texel as u16, samples, links: Vec::new() });
         }
     }

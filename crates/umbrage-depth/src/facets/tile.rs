@@ -116,9 +116,14 @@ impl FacetTile {
             .iter()
             .position(|plane| *plane != NO_FACET)
             .map_or(0.0, |index| plane_of(cells.texels[index]).at((origin + texel_of(index)).as_dvec2() + 0.5));
-        let table = Table::new(cells, |plane| Self::near(&plane_of(plane), base, middle), exact);
+        // Where all texels are alike, one says it all.
+        let first = cells.texels.first().copied().unwrap_or(NO_FACET);
+        let alike = cells.texels.iter().fold(0, |differs, plane| differs | (plane ^ first)) == 0;
+        let texels = if alike { &cells.texels[..cells.texels.len().min(1)] } else { cells.texels };
+        let table =
+            Table::new(&FacetCells { texels, ..*cells }, |plane| Self::near(&plane_of(plane), base, middle), exact);
         let blocks = (!cells.blocks.is_empty()).then(|| Box::new(Blocks::new(cells, &table, fine)));
-        let texels = Packed::new(&cells.texels.iter().map(|plane| table.index(*plane)).collect::<Vec<_>>());
+        let texels = Packed::new(&texels.iter().map(|plane| table.index(*plane)).collect::<Vec<_>>());
         let (small, bytes) = (table.kept.len() <= 1 << 16, table.bytes(exact) + texels.bytes());
         let own = AREA * if exact { size_of::<f32>() } else { size_of::<f32>() + size_of::<[f16; 2]>() };
         let blocks = blocks.filter(|_| small);
@@ -299,7 +304,11 @@ impl Table {
         let none = cells.planes.len();
         let mut table = Self { index: vec![NO_FACET; none + 1], kept: Vec::new(), near: Vec::new() };
         let mut same: BTreeMap<[u64; 3], u32> = BTreeMap::new();
+        let mut last = None;
         for &plane in cells.texels.iter().chain(cells.blocks.iter().flat_map(|block| &block.samples)) {
+            if last.replace(plane) == Some(plane) {
+                continue;
+            }
             let place = (plane as usize).min(none);
             if table.index[place] != NO_FACET {
                 continue;

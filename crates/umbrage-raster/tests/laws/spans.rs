@@ -2,8 +2,9 @@
 
 use glam::{DVec3, IVec2, UVec2};
 use std::collections::BTreeMap;
-use umbrage_plane::{TexelRect, View};
-use umbrage_raster::{BIN, Bins, Cull, Lines, Seen, Triangle};
+use std::ops::Range;
+use umbrage_plane::{Facet, TexelRect, View};
+use umbrage_raster::{BIN, Bins, Cull, Lines, Shown, Triangle};
 
 /// Random triangles in front of a small perspective view: ordinary ones, slivers, and some that are cut by the near limit.
 fn soup(seed: u32) -> (View, Vec<Triangle>) {
@@ -137,49 +138,55 @@ fn a_region_is_a_part_of_the_whole() {
     }
 }
 
-/// What is gathered once for a region answers for every part of it as the bins do; who is not wanted is left out, and no one else.
+/// Of what is gathered once for a region, those that are shown in a part of it cover what the bins say, and whoever is left out is hidden there.
 #[test]
-fn gathered_facets_answer_for_parts_of_their_region() {
+fn whoever_is_not_shown_is_nearest_nowhere() {
     let (view, triangles) = soup(3);
     let few = triangles.into_iter().take(9);
     let bins = Bins::for_spans(&view, TexelRect::of_size(view.size()), Cull::None, few);
     let region = TexelRect::new(IVec2::new(9 * 256, 3 * 256), IVec2::new(66 * 256, 41 * 256));
     let gathered = bins.gathered(region);
     assert!(!gathered.is_empty() && gathered.len() <= bins.facets().len());
-    let mut kinds = [0; 3];
-    for part in TexelRect::of_size(UVec2::new(14, 9)).texels().map(|at| region.min + at * 1024) {
-        let part = TexelRect::new(part, part + 1024 + 64);
-        let seen = gathered.seen(part, |_| true);
-        assert_eq!(seen, bins.seen(part), "{part:?}");
-        let kind = match seen {
-            Seen::Nothing => 0,
-            Seen::One(_) => 1,
-            Seen::Several => 2,
-        };
-        kinds[kind] += 1;
-        let full_of_holes = gathered.seen(part, |_| false);
-        assert_eq!(full_of_holes, if kind == 0 { Seen::Nothing } else { Seen::Several }, "{part:?}");
+    let (mut nothing, mut one, mut several, mut hidden) = (0, 0, 0, 0);
+    for corner in TexelRect::of_size(UVec2::new(14, 9)).texels().map(|at| region.min + at * 1024) {
+        let part = TexelRect::new(corner, corner + 1024 + 64);
+        let all = 0..gathered.len() as u32;
+        let (mut shown, mut with_holes) = (Vec::new(), Vec::new());
+        gathered.shown(part, all.clone(), |_| true, &mut shown);
+        gathered.shown(part, all, |_| false, &mut with_holes);
+        assert!(shown.iter().all(|shown| with_holes.contains(shown)), "{part:?}");
+        assert!(with_holes.is_sorted_by_key(|shown| shown.number));
+        hidden += with_holes.len() - shown.len();
+        match shown.as_slice() {
+            [] => nothing += 1,
+            [Shown { covers: true, .. }] => one += 1,
+            _ => several += 1,
+        }
         for lines in [Lines::Rows, Lines::Columns] {
-            let mut wanted = Vec::new();
-            bins.spans(part, lines, 64, |facet, line, along| wanted.push((facet.triangle, line, along)));
-            let mut found = Vec::new();
-            let mut numbers = BTreeMap::new();
-            gathered.spans(
-                part,
-                lines,
-                64,
-                |_| true,
-                |number, facet, line, along| {
-                    assert_eq!(*numbers.entry(number).or_insert(facet.triangle), facet.triangle);
-                    found.push((facet.triangle, line, along));
-                },
-            );
-            assert_eq!(found, wanted, "{lines:?} of {part:?}");
-            assert!(numbers.values().is_sorted() && numbers.keys().all(|number| *number < gathered.len()));
-            let (mut few, small) = (Vec::new(), |bounds: TexelRect| (bounds.max - bounds.min).x < 5000);
-            gathered.spans(part, lines, 64, small, |_, facet, line, along| few.push((facet.triangle, line, along)));
-            assert!(few.iter().all(|span| found.contains(span)) && few.len() <= found.len());
+            let band = gathered.band(part, lines, 64).expect("lines over the part");
+            let first = 32 + if lines == Lines::Rows { corner.y } else { corner.x };
+            let covered = |shown: &[Shown]| {
+                let mut found = Vec::new();
+                for shown in shown {
+                    let facet = gathered.facet(shown.number);
+                    band.covered(*shown, |line, along| found.push((facet, first + 64 * line as i32, along)));
+                }
+                found
+            };
+            let mut all = Vec::new();
+            bins.spans(part, lines, 64, |facet, line, along| all.push((*facet, line, along)));
+            assert_eq!(covered(&with_holes), all, "{lines:?} of {part:?}");
+            let some = covered(&shown);
+            for at in TexelRect::of_size(UVec2::splat(16)).texels().map(|at| corner + 64 * at + 32) {
+                let (across, along) = if lines == Lines::Rows { (at.y, at.x) } else { (at.x, at.y) };
+                let nearest = |spans: &[(Facet, i32, Range<i32>)]| {
+                    let there = spans.iter().filter(|(_, line, span)| *line == across && span.contains(&along));
+                    there.map(|(facet, ..)| facet.plane.at(at.as_dvec2() / 256.0)).fold(f64::INFINITY, f64::min)
+                };
+                assert_eq!(nearest(&some), nearest(&all), "{at} of {part:?}");
+            }
         }
     }
-    assert!(kinds.iter().all(|count| *count > 0), "{kinds:?} of nothing, one, several");
+    assert!(nothing > 0 && one > 0 && several > 0, "{nothing} of nothing, {one} of one, {several} of several");
+    assert!(hidden > 10, "{hidden}");
 }
