@@ -10,7 +10,7 @@ use std::sync::Arc;
 use umbrage_bake::{Deep, bake_deep};
 use umbrage_depth::{DepthMap, Raw};
 use umbrage_plane::{Bias, Receiver, SurfacePoint, View, vectorized};
-use umbrage_sample::{Jittered, Key};
+use umbrage_sample::{Jittered, Key, Table};
 use umbrage_shadow::{
     BiasCone, Biased, Conditional, DualPlane, Filter, OnPlane, Pcf, Query, Shadow, ShadowMap, Simd, Soft,
 };
@@ -117,6 +117,7 @@ pub fn all(scene: &Scene, view: &View) -> Vec<LookUp> {
         };
     }
     both!("pcf-bias", closer(view), &nearest);
+    both!("pcf-table", closer(view).with_pattern(Table::default()), &nearest);
     both!("pcf-plane", on_plane(view), &nearest);
     both!("pcf-cone", with_depth(BiasCone::default()), &nearest);
     both!("woo92", with_depth(Biased::constant(Bias::ZERO)), &middle);

@@ -7,7 +7,7 @@ use crate::values::{PatternName, Values};
 use crate::{PresetName, RecipeError};
 use umbrage_depth::{Map, Storage};
 use umbrage_sample::{
-    AnyPattern, Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Tent, Uniform,
+    AnyPattern, Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Table, Tent, Uniform,
 };
 use umbrage_shadow::{
     Around, Conditional, Filter, FilteredDepth, IntegerFirst, Pcf, Shadow, ShadowMap, Soft, Williams,
@@ -83,6 +83,7 @@ impl Values {
         let num_samples = self.jittered.num_samples;
         match self.pattern {
             PatternName::Jittered => self.jittered.into(),
+            PatternName::Table => Table(self.jittered).into(),
             PatternName::Uniform => Uniform::default().with_num_samples(num_samples).into(),
             PatternName::Gaussian => Gaussian::default().with_num_samples(num_samples).into(),
             PatternName::Inside => InsideQuadReject(self.jittered).into(),

@@ -240,6 +240,7 @@ pub const FIELDS: &[Field] = &[
         CLOSER,
         [
             ("jittered", PatternName::Jittered),
+            ("table", PatternName::Table),
             ("uniform", PatternName::Uniform),
             ("gaussian", PatternName::Gaussian),
             ("inside", PatternName::Inside),

@@ -32,6 +32,7 @@ fn r87_12_every_field_is_read() {
     assert_eq!(values.lookup, Lookup::Bilinear(Guard::Steps(2.0)));
     let patterns = [
         ("jittered", PatternName::Jittered),
+        ("table", PatternName::Table),
         ("uniform", PatternName::Uniform),
         ("gaussian", PatternName::Gaussian),
         ("inside", PatternName::Inside),

@@ -37,6 +37,7 @@ impl Rule {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PatternName {
     Jittered,
+    Table,
     Uniform,
     Gaussian,
     Inside,

@@ -1,5 +1,6 @@
 use crate::{
-    Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Taps, Tent, Uniform,
+    Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Table, Taps, Tent,
+    Uniform,
 };
 use fearless_simd::Simd;
 use umbrage_plane::Footprint;
@@ -23,6 +24,8 @@ pub enum AnyPattern {
     Gaussian(Gaussian),
     /// [`Jittered`].
     Jittered(Jittered),
+    /// [`Table`].
+    Table(Table),
     /// [`InsideQuadReject`].
     InsideQuadReject(InsideQuadReject),
     /// [`InsideQuadWarp`].
@@ -41,6 +44,7 @@ macro_rules! each {
             AnyPattern::Uniform($pattern) => $answer,
             AnyPattern::Gaussian($pattern) => $answer,
             AnyPattern::Jittered($pattern) => $answer,
+            AnyPattern::Table($pattern) => $answer,
             AnyPattern::InsideQuadReject($pattern) => $answer,
             AnyPattern::InsideQuadWarp($pattern) => $answer,
             AnyPattern::Disc($pattern) => $answer,
@@ -58,7 +62,7 @@ macro_rules! from {
     };
 }
 
-from!(Centre, EveryTexel, Tent, Uniform, Gaussian, Jittered, InsideQuadReject, InsideQuadWarp, Disc);
+from!(Centre, EveryTexel, Tent, Uniform, Gaussian, Jittered, Table, InsideQuadReject, InsideQuadWarp, Disc);
 
 impl Pattern for AnyPattern {
     #[inline(always)]

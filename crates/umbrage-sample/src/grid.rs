@@ -1,4 +1,4 @@
-use crate::{Key, Taps};
+use crate::{Taps, key::Draws};
 use fearless_simd::{Simd, f32x16, i32x16, prelude::*};
 use glam::Vec2;
 use umbrage_plane::Footprint;
@@ -28,14 +28,14 @@ impl Area {
     pub fn taps<S: Simd>(
         &self,
         simd: S,
-        key: Key,
+        numbers: impl Draws,
         (first, mask): (u32, u32),
         (x, y): (f32x16<S>, f32x16<S>),
     ) -> Taps<S> {
         Taps {
             x: x.max(f32x16::splat(simd, self.low.x)).min(f32x16::splat(simd, self.high.x)),
             y: y.max(f32x16::splat(simd, self.low.y)).min(f32x16::splat(simd, self.high.y)),
-            u: key.unit_lanes(simd, first, 2),
+            u: numbers.lanes(simd, first, 2),
             mask,
             first,
             weight: f32x16::splat(simd, 1.0),

@@ -1,6 +1,7 @@
 use crate::{
     Key, Pattern, Taps,
     grid::{Area, Grid},
+    key::Draws,
 };
 use fearless_simd::{Simd, f32x16};
 use glam::{UVec2, Vec2};
@@ -100,11 +101,17 @@ impl Jittered {
 
     /// Where in the grid the sixteen taps from `first` on are, in cells from its corner.
     #[inline(always)]
-    pub(crate) fn places<S: Simd>(&self, simd: S, grid: Grid, key: Key, first: u32) -> (f32x16<S>, f32x16<S>) {
+    pub(crate) fn places<S: Simd>(
+        &self,
+        simd: S,
+        grid: Grid,
+        numbers: impl Draws,
+        first: u32,
+    ) -> (f32x16<S>, f32x16<S>) {
         let (i, j) = grid.cells(simd, first);
         // R87-13's (i + ½)·ds + rand11·ds/2, with rand11 = 2·rand01 − 1.
-        let x = i + 0.5 + (key.unit_lanes(simd, first, 0) - 0.5) * self.jitter;
-        let y = j + 0.5 + (key.unit_lanes(simd, first, 1) - 0.5) * self.jitter;
+        let x = i + 0.5 + (numbers.lanes(simd, first, 0) - 0.5) * self.jitter;
+        let y = j + 0.5 + (numbers.lanes(simd, first, 1) - 0.5) * self.jitter;
         (x, y)
     }
 }

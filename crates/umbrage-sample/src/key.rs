@@ -69,12 +69,31 @@ impl Key {
         bits ^= bits >> 15;
         bits *= 0x846C_A68B;
         bits ^= bits >> 16;
-        // As signed numbers, which these 24 bits are as well: AVX2 converts no others.
-        (bits >> 8).bitcast::<i32x16<S>>().to_float::<f32x16<S>>() * (1.0 / 16_777_216.0)
+        unit(bits)
     }
 
     /// A stream for what is drawn once: tables, scenes, camera sets.
     pub fn rng(self) -> Xoshiro256PlusPlus {
         Xoshiro256PlusPlus::seed_from_u64(u64::from(self.state))
+    }
+}
+
+/// [`Key::unit`] of sixteen times 32 bits.
+#[inline(always)]
+pub(crate) fn unit<S: Simd>(bits: u32x16<S>) -> f32x16<S> {
+    // As signed numbers, which these 24 bits are as well: AVX2 converts no others.
+    (bits >> 8).bitcast::<i32x16<S>>().to_float::<f32x16<S>>() * (1.0 / 16_777_216.0)
+}
+
+/// Where the random numbers of sixteen taps come from.
+pub(crate) trait Draws: Copy {
+    /// Uniform in \[0, 1): those of the taps from `first` on, for a dimension.
+    fn lanes<S: Simd>(self, simd: S, first: u32, dim: u32) -> f32x16<S>;
+}
+
+impl Draws for Key {
+    #[inline(always)]
+    fn lanes<S: Simd>(self, simd: S, first: u32, dim: u32) -> f32x16<S> {
+        self.unit_lanes(simd, first, dim)
     }
 }

@@ -11,6 +11,7 @@
 //! | [`Tent`] | Wang & Molnar 1994 | every texel, weighted by nearness |
 //! | [`Uniform`], [`Gaussian`] | Reeves 1987, Fig. 3a, 3b | random in the bounding box |
 //! | [`Jittered`] | Reeves 1987, Fig. 3c and 4 | one in each cell of a grid over the box: the default |
+//! | [`Table`] | | the same with stored numbers, a hash for sixteen taps |
 //! | [`InsideQuadReject`], [`InsideQuadWarp`] | Reeves 1987, Fig. 3d | inside the region's quadrilateral |
 //! | [`Disc`] | Burley 2006 | Hammersley points on a disc |
 //! | [`AnyPattern`] | | any of them, chosen when the program runs |
@@ -43,6 +44,7 @@ mod grid;
 mod inside_quad;
 mod jittered;
 mod key;
+mod table;
 mod taps;
 mod tent;
 mod uniform;
@@ -55,6 +57,7 @@ pub use gaussian::Gaussian;
 pub use inside_quad::{InsideQuadReject, InsideQuadWarp};
 pub use jittered::Jittered;
 pub use key::Key;
+pub use table::Table;
 pub use taps::{Pattern, Tap, Taps, each_tap};
 pub use tent::Tent;
 pub use uniform::Uniform;

@@ -4,7 +4,7 @@ use super::subject::Subject;
 use crate::outside::{Pcss, Variance};
 use umbrage_plane::Bias;
 use umbrage_sample::{
-    AnyPattern, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Tent, Uniform,
+    AnyPattern, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Table, Tent, Uniform,
 };
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
 use umbrage_shadow::{
@@ -34,6 +34,7 @@ pub fn every_filter() -> Vec<Subject> {
         Subject::new("one tap", reeves(Centre.into(), Biased::constant(Bias::Texels(1.0)).into())),
         Subject::new("a tent in a cone", reeves(Tent.into(), BiasCone::default().into())),
         Subject::new("uniform taps", reeves(Uniform::default().into(), Biased::default().into())),
+        Subject::new("taps of a table", reeves(Table::default().into(), Biased::default().into())),
         Subject::new("normal taps", reeves(Gaussian::default().into(), plane())),
         Subject::new("inside the quadrilateral", reeves(InsideQuadReject::default().into(), Biased::default().into())),
         Subject::new("warped onto it", reeves(InsideQuadWarp::default().into(), plane())),

@@ -4,8 +4,8 @@ use std::sync::Arc;
 use umbrage_depth::{DepthMap, Map, Raw, Tiled};
 use umbrage_plane::{Bias, Kind, Receiver, Sampling, Verdict, View, vectorized};
 use umbrage_sample::{
-    AnyPattern, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Tent,
-    Uniform, each_tap,
+    AnyPattern, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Table,
+    Tent, Uniform, each_tap,
 };
 use umbrage_shadow::{AnyDepth, BiasCone, Biased, Filter, OnPlane, Pcf, Radius, ReceiverDepth, ShadowMap};
 use umbrage_tests::laws::{KEY, baked, receivers};
@@ -70,6 +70,7 @@ fn r87_13_r87_22_simd_and_culling_agree_with_one_tap_at_a_time() {
     any(Gaussian::default(), &maps);
     any(Jittered::default(), &maps);
     any(Jittered::default().with_num_samples(64).with_min_samples(3), &maps);
+    any(Table::default(), &maps);
     any(InsideQuadReject::default(), &maps);
     any(InsideQuadWarp::default(), &maps);
     any(Disc::default(), &maps);

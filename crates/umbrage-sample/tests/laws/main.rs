@@ -1,6 +1,7 @@
 //! The laws that every pattern obeys, each over every pattern (C-9, R87-11).
 
 mod key;
+mod table;
 mod twins;
 mod vectors;
 
@@ -10,8 +11,8 @@ use proptest::prelude::*;
 use twins::Twin;
 use umbrage_plane::Footprint;
 use umbrage_sample::{
-    Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Tap, Tent,
-    Uniform, each_tap, hammersley,
+    Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Table, Tap,
+    Tent, Uniform, each_tap, hammersley,
 };
 
 /// The one list. A new pattern is added here, and its twin in `twins`.
@@ -29,6 +30,8 @@ macro_rules! every_pattern {
         $law("jittered 100", &jittered.with_num_samples(100).with_min_samples(3) $(, $more)*);
         $law("jittered capped", &jittered.with_min_samples(2).with_hard_cap(true) $(, $more)*);
         $law("regular", &jittered.with_num_samples(25).with_jitter(0.0) $(, $more)*);
+        $law("table", &Table::default() $(, $more)*);
+        $law("table 100", &Table(jittered.with_num_samples(100).with_min_samples(3)) $(, $more)*);
         $law("inside, rejecting", &InsideQuadReject(jittered) $(, $more)*);
         $law("inside, rejecting 4", &InsideQuadReject(jittered.with_num_samples(4)) $(, $more)*);
         $law("inside, warping", &InsideQuadWarp(jittered) $(, $more)*);
@@ -259,6 +262,7 @@ fn taps_are_centred_on_the_region() {
     check("uniform", mean(&Uniform::default(), &region, 4000));
     check("gaussian", mean(&Gaussian::default(), &region, 4000));
     check("jittered", mean(&Jittered::default(), &region, 4000));
+    check("table", mean(&Table::default(), &region, 4000));
     check("inside, rejecting", mean(&InsideQuadReject::default(), &region, 4000));
     check("inside, warping", mean(&InsideQuadWarp::default(), &region, 4000));
     check("disc", mean(&Disc::default(), &region, 4000));

@@ -3,8 +3,8 @@
 use glam::Vec2;
 use umbrage_plane::Footprint;
 use umbrage_sample::{
-    Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Tap, Tent,
-    Uniform,
+    Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Table, Tap,
+    Tent, Uniform,
 };
 
 /// A pattern that has a naive twin.
@@ -113,6 +113,29 @@ impl Twin for Jittered {
         let (ns, nt) = counts(self, region.half);
         let size = (high - low) / Vec2::new(ns as f32, nt as f32);
         cells(self, (ns, nt), key).map(|(k, place)| tap(region, key, k, place * size + low)).collect()
+    }
+}
+
+impl Twin for Table {
+    fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)> {
+        let (low, high) = corners(region);
+        let (ns, nt) = counts(&self.0, region.half);
+        let size = (high - low) / Vec2::new(ns as f32, nt as f32);
+        let drawn = |k: u32, dim: u32| {
+            let hash = key.bits(k / 16 * 16, 0);
+            let stored = Key::new(0, 0, 0).bits(hash % 64 * 16 + k % 16, dim);
+            let moved = stored.wrapping_add(hash.wrapping_mul([1, 0x9E37_79B9, 0x85EB_CA6B][dim as usize]));
+            (moved >> 8) as f32 * 0.5f32.powi(24)
+        };
+        let place = |k: u32| {
+            let cell = Vec2::new((k % ns) as f32, (k / ns) as f32);
+            cell + 0.5 + (Vec2::new(drawn(k, 0), drawn(k, 1)) - 0.5) * self.0.jitter
+        };
+        let at = |k: u32| {
+            let (k, tap) = tap(region, key, k, place(k) * size + low);
+            (k, Tap { u: drawn(k, 2), ..tap })
+        };
+        (0..ns * nt).map(at).collect()
     }
 }
 
