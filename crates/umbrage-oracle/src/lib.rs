@@ -41,5 +41,5 @@ pub use diagnostic::Diagnostic;
 pub use faults::{Contact, Evidence, Fault, Faults, faults, gap_on_surface, heat, penumbra_width, profile_on_surface};
 pub use geometry::{Body, Face, Geometry, Hit};
 pub use plan::Plan;
-pub use trial::{BiasKind, BiasShares, BiasTrial, TruePixel};
+pub use trial::{BiasKind, BiasShares, BiasTrial, TriedBias, TruePixel, biased_fraction};
 pub use truth::{AreaLight, AreaRegion, RayCast, Truth};

@@ -42,6 +42,41 @@ impl fmt::Display for BiasKind {
     }
 }
 
+/// A bias of all kinds together, as one receiver gets it.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct TriedBias {
+    /// World units toward the light.
+    pub constant: f64,
+    /// Texels, times what the surface's depth changes by from one to the next.
+    pub slope: f64,
+    /// World units along the normal, toward the side that the light is on.
+    pub normal: f64,
+}
+
+impl TriedBias {
+    /// An amount of one kind.
+    pub fn of(kind: BiasKind, amount: f64) -> Self {
+        let mut bias = Self::default();
+        *match kind {
+            BiasKind::Constant => &mut bias.constant,
+            BiasKind::Slope => &mut bias.slope,
+            BiasKind::Normal => &mut bias.normal,
+        } = amount;
+        bias
+    }
+
+    /// A point moved by it along its normal, as a view sees it, and the depth that is compared there; `None` for a point without a place in the view.
+    pub fn compared(&self, view: &View, point: &SurfacePoint) -> Option<(Receiver, f32)> {
+        let facing = point.normal.as_dvec3().dot(view.toward_eye(point.position));
+        let outward = point.normal.as_dvec3() * self.normal.copysign(facing * self.normal);
+        let receiver = view.receiver(&SurfacePoint { position: point.position + outward, ..*point }).ok()?;
+        let steps = f64::from(receiver.texel_world.max_element() * receiver.slope);
+        // Edge-on no finite step exists; none at all is still none.
+        let slope = if self.slope == 0.0 { 0.0 } else { self.slope * steps };
+        Some((receiver, receiver.nearer(view, Bias::World((self.constant + slope) as f32))))
+    }
+}
+
 /// What a bias leaves wrong; shares from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct BiasShares {
@@ -111,10 +146,15 @@ impl<'a, M: DepthMap> BiasTrial<'a, M> {
 
     /// What an amount of a bias leaves wrong; 0 where there is no pixel that could be.
     pub fn shares(&self, kind: BiasKind, amount: f64) -> BiasShares {
+        self.shares_by(|_| TriedBias::of(kind, amount))
+    }
+
+    /// What a bias leaves wrong that may be another for each receiver.
+    pub fn shares_by(&self, bias: impl Fn(&Receiver) -> TriedBias + Sync) -> BiasShares {
         let mean = |points: &[SurfacePoint], of: fn([i32; 2]) -> i32| {
             // Whole numbers: a sum that no order of the threads can change.
             let sum = |point: &SurfacePoint| {
-                let texels = self.texels(point, kind, amount);
+                let texels = texels(self.map, point, self.radius, &bias);
                 (i64::from(of(texels)) << SHIFT) / i64::from(texels[0] + texels[1])
             };
             let sum: i64 = points.par_iter().map(sum).sum();
@@ -161,31 +201,34 @@ impl<'a, M: DepthMap> BiasTrial<'a, M> {
     fn texel(&self) -> f64 {
         self.median().map_or(1.0, |receiver| f64::from(receiver.texel_world.max_element()))
     }
+}
 
-    /// How many texels around a point leave it lit, and how many are nearer than it.
-    fn texels(&self, point: &SurfacePoint, kind: BiasKind, amount: f64) -> [i32; 2] {
-        let view = self.map.view();
-        let (point, bias) = match kind {
-            BiasKind::Constant => (*point, Bias::World(amount as f32)),
-            BiasKind::Slope => (*point, Bias::Steps(amount as f32)),
-            BiasKind::Normal => {
-                let facing = point.normal.as_dvec3().dot(view.toward_eye(point.position));
-                let outward = point.normal.as_dvec3() * amount.copysign(facing);
-                (SurfacePoint { position: point.position + outward, ..*point }, Bias::ZERO)
-            }
-        };
-        // An offset may lead behind the light.
-        let Ok(receiver) = view.receiver(&point) else { return [1, 0] };
-        let compared = receiver.nearer(view, bias);
-        let (first, last) = around(receiver.texel, self.radius);
-        let mut texels = [0; 2];
-        for y in first.y..=last.y {
-            for x in first.x..=last.x {
-                texels[usize::from(self.map.depth(IVec2::new(x, y)) < compared)] += 1;
-            }
+/// The fraction of a point that is in shadow by the nearest texels, all that lie within `radius` texels of it, with a bias: what [`BiasTrial`]
+/// judges.
+pub fn biased_fraction(
+    map: &impl DepthMap,
+    point: &SurfacePoint,
+    radius: f64,
+    bias: impl Fn(&Receiver) -> TriedBias,
+) -> f32 {
+    let [lit, dark] = texels(map, point, radius, bias);
+    dark as f32 / (lit + dark) as f32
+}
+
+/// How many texels around a point leave it lit, and how many are nearer than it.
+fn texels(map: &impl DepthMap, point: &SurfacePoint, radius: f64, bias: impl Fn(&Receiver) -> TriedBias) -> [i32; 2] {
+    let view = map.view();
+    let bias = view.receiver(point).ok().map(|receiver| bias(&receiver));
+    // An offset may lead behind the light.
+    let Some((receiver, compared)) = bias.and_then(|bias| bias.compared(view, point)) else { return [1, 0] };
+    let (first, last) = around(receiver.texel, radius);
+    let mut texels = [0; 2];
+    for y in first.y..=last.y {
+        for x in first.x..=last.x {
+            texels[usize::from(map.depth(IVec2::new(x, y)) < compared)] += 1;
         }
-        texels
     }
+    texels
 }
 
 /// Bits behind the point of a pixel's share.

@@ -15,7 +15,7 @@ struct Rule {
 
 const EVERY: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-io"];
 const COMMAND: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-report", "umbrage-gltf", "umbrage-engines"];
-const FIGURES: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-report"];
+const FIGURES: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-report", "umbrage-engines"];
 const PROPERTIES: &[&str] = &["proptest"];
 
 /// The drawing of the architecture page. A package that is not here may not exist.

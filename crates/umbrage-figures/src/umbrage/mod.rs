@@ -3,6 +3,7 @@
 mod area;
 mod auto;
 mod curves;
+mod engines;
 mod faults;
 mod judge;
 mod kinds;
@@ -21,6 +22,7 @@ pub const FIGURES: &[&Figure] = &[
     &curves::ACNE,
     &curves::NOISE,
     &faults::FAULTS,
+    &engines::BIAS,
     &methods::SIZES,
     &methods::GRAZING,
     &matrix::PRESETS,
