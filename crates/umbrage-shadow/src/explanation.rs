@@ -64,6 +64,8 @@ impl Explanation {
 }
 
 impl Probe for Explanation {
+    const EXPLAINS: bool = true;
+
     fn placed(&mut self, place: Place) {
         self.placed = Some(place);
     }
@@ -78,10 +80,6 @@ impl Probe for Explanation {
 
     fn virtual_sampled(&mut self) {
         self.on_plane = true;
-    }
-
-    fn explains(&self) -> bool {
-        true
     }
 
     fn judged(&mut self, place: &PlaceJudged) {

@@ -75,6 +75,10 @@ impl Crossing {
 
 /// Is told what a filter does, for counters and for explanations. Every method does nothing unless overridden, and `()` is the probe that costs nothing.
 pub trait Probe {
+    /// Whether [`Probe::judged`] is called for every place that is asked about, and [`Probe::tapped`] for every tap, which takes longer than the
+    /// answer itself. A constant, so that filters are compiled without it for probes that only count.
+    const EXPLAINS: bool = false;
+
     /// A receiver whose answer its place alone settled.
     #[inline(always)]
     fn placed(&mut self, place: Place) {
@@ -93,21 +97,15 @@ pub trait Probe {
     /// A region that was compared on its tangent plane (WM94-15).
     #[inline(always)]
     fn virtual_sampled(&mut self) {}
-    /// Whether [`Probe::judged`] is called for every place that is asked about, and [`Probe::tapped`] for every tap, which takes longer than the
-    /// answer itself.
-    #[inline(always)]
-    fn explains(&self) -> bool {
-        false
-    }
-    /// A place of a region over a map of facets: what the samples around it say, and why it is lit or dark. Told only when [`Probe::explains`].
+    /// A place of a region over a map of facets: what the samples around it say, and why it is lit or dark. Told only when [`Probe::EXPLAINS`].
     #[inline(always)]
     fn judged(&mut self, place: &PlaceJudged) {
         let _ = place;
     }
-    /// The taps that follow are one question. Called only when [`Probe::explains`].
+    /// The taps that follow are one question. Called only when [`Probe::EXPLAINS`].
     #[inline(always)]
     fn asked(&mut self) {}
-    /// One tap of a region. Called only when [`Probe::explains`].
+    /// One tap of a region. Called only when [`Probe::EXPLAINS`].
     #[inline(always)]
     fn tapped(&mut self, tap: &TapJudged) {
         let _ = tap;

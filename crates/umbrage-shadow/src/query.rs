@@ -215,7 +215,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         let (simd, map, view, channel) = (self.simd, self.map, self.view(), self.channel);
         let (deep, weighted) = (map.translucent(), pattern.weighted());
         let probe = &mut *self.probe;
-        if probe.explains() {
+        if P::EXPLAINS {
             probe.asked();
         }
         let (mut hits, mut count) = (0.0, 0.0);
@@ -229,20 +229,20 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
                     let from = Passing { deep, channel, view, inside, weighted };
                     // Of a copy: the taps themselves stay in registers where no other function is given them.
                     from.add(&{ *taps }, &compared.into(), (&mut hits, &mut count));
-                    if probe.explains() {
+                    if P::EXPLAINS {
                         let compared: [f32; 16] = compared.into();
                         let dark = std::array::from_fn(|i| from.dark(taps.tap(i).at, compared[i]));
-                        let stored = map.look(simd, rect, taps.x, taps.y).into();
+                        let stored = look::<S, M, P>(simd, map, rect, taps).into();
                         report(probe, (view, inside, weighted), &{ *taps }, [&compared, &stored, &dark]);
                     }
                     return;
                 }
-                let stored = map.look(simd, rect, taps.x, taps.y);
+                let stored = look::<S, M, P>(simd, map, rect, taps);
                 let mut nearer = behind(probe, compared, stored, taps.mask) & taps.mask;
                 if !inside {
                     nearer = by_rules(view, &{ *taps }, nearer);
                 }
-                if probe.explains() {
+                if P::EXPLAINS {
                     let dark = std::array::from_fn(|i| (nearer >> i & 1) as f32);
                     report(probe, (view, inside, weighted), &{ *taps }, [&compared.into(), &stored.into(), &dark]);
                 }
@@ -292,10 +292,10 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
     ) {
         let (simd, map, view) = (self.simd, self.map, self.view());
         let Area { rect, inside } = Area::of(simd, view, region);
-        if self.probe.explains() {
+        if P::EXPLAINS {
             self.probe.asked();
         }
-        let (mut explained, explains) = (Vec::new(), self.probe.explains());
+        let mut explained = Vec::new();
         let this = &*self;
         let looked = Self::visit(
             (simd, self.key),
@@ -303,7 +303,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
             (pattern, &depth.prepared(view, self.receiver)),
             #[inline(always)]
             |taps, compared| {
-                let stored = map.look(simd, rect, taps.x, taps.y);
+                let stored = look::<S, M, P>(simd, map, rect, taps);
                 for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
                     let tap = taps.tap(i);
                     let ruled = if inside { None } else { by_rule(view, tap.at) };
@@ -312,7 +312,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
                         Met::Settled,
                     );
                     let seen = Seen { tap, compared: compared[i], met };
-                    if explains {
+                    if P::EXPLAINS {
                         explained.push(seen.judged(stored[i]));
                     }
                     f(&seen);
@@ -338,7 +338,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         let (simd, map, view) = (self.simd, self.map, self.view());
         let Area { rect, .. } = Area::of(simd, view, region);
         let probe = &mut *self.probe;
-        if probe.explains() {
+        if P::EXPLAINS {
             probe.asked();
         }
         let looked = Self::visit(
@@ -347,8 +347,8 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
             (pattern, &depth.prepared(view, self.receiver)),
             #[inline(always)]
             |taps, compared| {
-                let stored = map.look(simd, rect, taps.x, taps.y);
-                if probe.explains() {
+                let stored = look::<S, M, P>(simd, map, rect, taps);
+                if P::EXPLAINS {
                     let nearer = compared.simd_gt(stored).to_bitmask() as u32;
                     let dark = std::array::from_fn(|i| (nearer >> i & 1) as f32);
                     report(probe, (view, true, false), &{ *taps }, [&compared.into(), &stored.into(), &dark]);
@@ -478,6 +478,24 @@ impl Passing<'_> {
         let passes = || self.deep.transmittance(at.floor().as_ivec2(), compared);
         ruled.unwrap_or_else(|| 1.0 - self.channel.of(passes(), self.deep.is_grey()))
     }
+}
+
+/// What a map stores under sixteen taps. For explanations it is asked one texel after another, which is the same, and compiled once for each map
+/// instead of into every filter.
+#[inline(always)]
+fn look<S: Simd, M: DepthMap, P: Probe>(simd: S, map: &M, rect: TexelRect, taps: &Taps<S>) -> f32x16<S> {
+    if P::EXPLAINS {
+        f32x16::load_array(simd, one_by_one(map, taps.x.into(), taps.y.into()))
+    } else {
+        map.look(simd, rect, taps.x, taps.y)
+    }
+}
+
+#[inline(never)]
+fn one_by_one(map: &impl DepthMap, x: [f32; 16], y: [f32; 16]) -> [f32; 16] {
+    // Indices as a map's own look-up has them: saturated, so that none overflows.
+    let index = |at: f32| at.clamp(-1_073_741_824.0, 1_073_741_824.0).floor() as i32;
+    std::array::from_fn(|i| map.depth(IVec2::new(index(x[i]), index(y[i]))))
 }
 
 /// Reports sixteen taps to a probe: compared depths, stored ones, and answers.

@@ -344,9 +344,8 @@ fn a_region_is_asked_where_it_is_its_surface() {
 struct Told(Vec<PlaceJudged>);
 
 impl Probe for Told {
-    fn explains(&self) -> bool {
-        true
-    }
+    const EXPLAINS: bool = true;
+
     fn judged(&mut self, place: &PlaceJudged) {
         self.0.push(place.clone());
     }

@@ -137,7 +137,7 @@ impl Filter for Williams {
                 let dark = compared > bilinear(query.map(), at, guard, receiver);
                 let (texels, fraction) = four(view, at);
                 let surfaces = texels.map(|texel| query.texel(texel));
-                if query.probe().explains() {
+                if P::EXPLAINS {
                     // The depths are interpolated, and one answer is made of all four.
                     query.probe().asked();
                     let [x, y] = fraction.to_array();
@@ -162,7 +162,7 @@ impl Filter for Williams {
             Lookup::Nearest | Lookup::Bilinear(_) => {
                 let surfaces = query.texel(at.floor().as_ivec2());
                 let dark = surfaces.dark(compared);
-                if query.probe().explains() {
+                if P::EXPLAINS {
                     let stored = surfaces.nearest();
                     query.probe().asked();
                     query.probe().tapped(&TapJudged { at, stored, compared, weight: 1.0, ruled: None, dark });

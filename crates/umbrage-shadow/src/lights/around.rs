@@ -94,22 +94,33 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
 
     fn batch<P: Probe>(&self, channel: Channel, at: &[SurfacePoint], key: Key, out: &mut [f32], probe: &mut P) {
         same_length(at, out);
-        vectorized!(simd => {
-            let eye = self.maps[0].view().light().truncate();
-            for (point, fraction) in at.iter().zip(out) {
-                let key = key.region(point.region);
-                *fraction = match self.evaluate {
-                    Evaluate::Own => {
-                        let own = nearest(&self.maps, point.position - eye);
-                        self.ask(simd, &Face { maps: &self.maps, own }, channel, point, key, probe)
-                    }
-                    Evaluate::Every => {
-                        let within = |map: &M| self.within(simd, map, channel, point, key, probe);
-                        self.maps.iter().map(within).fold(0.0, f32::max)
-                    }
-                };
-            }
-        });
+        vectorized!(simd => self.batch_with(simd, channel, at, key, out, probe));
+    }
+
+    #[inline(always)]
+    fn batch_with<S: Simd, P: Probe>(
+        &self,
+        simd: S,
+        channel: Channel,
+        at: &[SurfacePoint],
+        key: Key,
+        out: &mut [f32],
+        probe: &mut P,
+    ) {
+        let eye = self.maps[0].view().light().truncate();
+        for (point, fraction) in at.iter().zip(out) {
+            let key = key.region(point.region);
+            *fraction = match self.evaluate {
+                Evaluate::Own => {
+                    let own = nearest(&self.maps, point.position - eye);
+                    self.ask(simd, &Face { maps: &self.maps, own }, channel, point, key, probe)
+                }
+                Evaluate::Every => {
+                    let within = |map: &M| self.within(simd, map, channel, point, key, probe);
+                    self.maps.iter().map(within).fold(0.0, f32::max)
+                }
+            };
+        }
     }
 
     #[inline(always)]
@@ -169,7 +180,8 @@ impl<F: Filter, M: DepthMap> Shadow for Around<F, M> {
         let own = nearest(&self.maps, at.position - self.maps[0].view().light().truncate());
         let view = self.maps[own].view();
         let (mut explanation, mut out) = (Explanation::of(view, view.receiver(at).ok()), [0.0]);
-        self.batch(Channel::All, std::slice::from_ref(at), key, &mut out, &mut explanation);
+        let at = std::slice::from_ref(at);
+        plainly!(simd => self.batch_with(simd, Channel::All, at, key, &mut out, &mut explanation));
         explanation.fraction = out[0];
         vec![explanation]
     }

@@ -1,5 +1,17 @@
 //! What shading sees: lights of one map, of several around them, and of one over all directions.
 
+/// [`vectorized!`](umbrage_plane::vectorized) with the instructions that every machine has alone: for what is asked so seldom that a second
+/// compiled body of each filter would be a waste. The answers are the same bits.
+macro_rules! plainly {
+    ($simd:pat => $body:expr) => {{
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        let answer = umbrage_plane::vectorized!(@baseline $simd => $body);
+        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+        let answer = umbrage_plane::vectorized!($simd => $body);
+        answer
+    }};
+}
+
 mod around;
 mod bounded;
 mod lat_long;

@@ -101,7 +101,8 @@ impl<F: Filter, M: DepthMap> Shadow for ShadowMap<F, M> {
     fn explain(&self, at: &SurfacePoint, key: Key) -> Vec<Explanation> {
         let view = self.map.view();
         let (mut explanation, mut out) = (Explanation::of(view, view.receiver(at).ok()), [0.0]);
-        self.batch(Channel::All, std::slice::from_ref(at), key, &mut out, &mut explanation);
+        let at = std::slice::from_ref(at);
+        plainly!(simd => batch(simd, self, Channel::All, at, key, &mut out, &mut explanation));
         explanation.fraction = out[0];
         vec![explanation]
     }

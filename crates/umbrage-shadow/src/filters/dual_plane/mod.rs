@@ -27,7 +27,7 @@ impl Filter for DualPlane {
         let (fraction, looked) = match query.map().facets() {
             Some(Facets::Map(map)) => {
                 let asked = Asked::new(self, map, query);
-                if query.probe().explains() {
+                if P::EXPLAINS {
                     explain(&asked, query.probe());
                 }
                 asked.fraction()
@@ -54,7 +54,7 @@ impl DualPlane {
         query: &mut Query<'a, S, M, P>,
     ) -> (f32, u32) {
         let asked = Asked::new(self, maps, query);
-        if query.probe().explains() {
+        if P::EXPLAINS {
             explain(&asked, query.probe());
         }
         asked.fraction()
