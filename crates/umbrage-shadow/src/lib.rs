@@ -28,6 +28,7 @@
 
 #![warn(missing_debug_implementations)]
 
+mod area;
 pub mod as_printed;
 mod depths;
 mod filters;

@@ -1,11 +1,12 @@
+use crate::area::Area;
 use crate::surfaces::{Channel, Met, Seen, Surfaces};
 use crate::{Compared, Probe, ReceiverDepth};
-use fearless_simd::{Simd, f32x4, f32x16, i32x4, prelude::*};
+use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::{IVec2, Vec2};
 use std::fmt;
 use std::sync::Arc;
 use umbrage_depth::{DepthMap, Translucent};
-use umbrage_plane::{DepthRange, Footprint, Receiver, TexelRect, Verdict, View};
+use umbrage_plane::{DepthRange, Footprint, Receiver, Verdict, View};
 use umbrage_sample::{Key, Pattern, Taps};
 
 /// Combines what a map says around a receiver into a fraction in shadow.
@@ -369,39 +370,6 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
 impl<S: Simd, M, P> fmt::Debug for Query<'_, S, M, P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Query").field("receiver", self.receiver).field("key", &self.key).finish_non_exhaustive()
-    }
-}
-
-/// A region in the map's texels.
-#[derive(Clone, Copy)]
-struct Area {
-    /// All texels that it touches.
-    rect: TexelRect,
-    /// Whether all of it lies inside the map and the cone.
-    inside: bool,
-}
-
-impl Area {
-    /// [`TexelRect::around`] and [`View::holds`], of all four sides at once where there is no cone. A region of NaN is not inside, and no texel
-    /// in particular is in its rectangle.
-    #[inline(always)]
-    fn of<S: Simd>(simd: S, view: &View, region: &Footprint) -> Self {
-        const FAR: f32 = 1_073_741_824.0;
-        let (centre, half) = (region.centre, region.half);
-        let (low, high) = (centre - half, centre + half);
-        let sides = f32x4::load_array(simd, [low.x, low.y, high.x, high.y]);
-        let whole = sides.floor().max(f32x4::splat(simd, -FAR)).min(f32x4::splat(simd, FAR));
-        let [left, top, right, bottom]: [i32; 4] = whole.to_int::<i32x4<S>>().into();
-        let (min, last) = (IVec2::new(left, top), IVec2::new(right, bottom));
-        let inside = if view.cone().is_some() {
-            view.holds(centre, half)
-        } else {
-            let size = view.size().as_vec2();
-            let within = sides.simd_ge(f32x4::splat(simd, 0.0))
-                & sides.simd_lt(f32x4::load_array(simd, [size.x, size.y, size.x, size.y]));
-            within.all_true()
-        };
-        Self { rect: TexelRect::new(min, last + IVec2::ONE), inside }
     }
 }
 
