@@ -28,8 +28,10 @@
 
 #![warn(missing_debug_implementations)]
 
+mod area;
 pub mod as_printed;
 mod depths;
+mod explained;
 mod explanation;
 mod filters;
 mod lights;

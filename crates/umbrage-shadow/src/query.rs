@@ -1,11 +1,13 @@
+use crate::area::Area;
+use crate::explained::{look, report};
 use crate::surfaces::{Channel, Met, Seen, Surfaces};
 use crate::{Compared, Probe, ReceiverDepth, TapJudged};
-use fearless_simd::{Simd, f32x4, f32x16, i32x4, prelude::*};
+use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::{IVec2, Vec2};
 use std::fmt;
 use std::sync::Arc;
 use umbrage_depth::{DepthMap, Translucent};
-use umbrage_plane::{DepthRange, Footprint, Receiver, TexelRect, Verdict, View};
+use umbrage_plane::{DepthRange, Footprint, Receiver, Verdict, View};
 use umbrage_sample::{Key, Pattern, Taps};
 
 /// Combines what a map says around a receiver into a fraction in shadow.
@@ -232,19 +234,29 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
                     if P::EXPLAINS {
                         let compared: [f32; 16] = compared.into();
                         let dark = std::array::from_fn(|i| from.dark(taps.tap(i).at, compared[i]));
-                        let stored = look::<S, M, P>(simd, map, rect, taps).into();
-                        report(probe, (view, inside, weighted), &{ *taps }, [&compared, &stored, &dark]);
+                        let stored = look::<_, _, P>(simd, map, rect, taps).into();
+                        report(
+                            probe,
+                            (|at| ruled(view, inside, at), weighted),
+                            &{ *taps },
+                            [&compared, &stored, &dark],
+                        );
                     }
                     return;
                 }
-                let stored = look::<S, M, P>(simd, map, rect, taps);
+                let stored = look::<_, _, P>(simd, map, rect, taps);
                 let mut nearer = behind(probe, compared, stored, taps.mask) & taps.mask;
                 if !inside {
                     nearer = by_rules(view, &{ *taps }, nearer);
                 }
                 if P::EXPLAINS {
                     let dark = std::array::from_fn(|i| (nearer >> i & 1) as f32);
-                    report(probe, (view, inside, weighted), &{ *taps }, [&compared.into(), &stored.into(), &dark]);
+                    report(
+                        probe,
+                        (|at| ruled(view, inside, at), weighted),
+                        &{ *taps },
+                        [&compared.into(), &stored.into(), &dark],
+                    );
                 }
                 if weighted {
                     for i in 0..16 {
@@ -303,7 +315,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
             (pattern, &depth.prepared(view, self.receiver)),
             #[inline(always)]
             |taps, compared| {
-                let stored = look::<S, M, P>(simd, map, rect, taps);
+                let stored = look::<_, _, P>(simd, map, rect, taps);
                 for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
                     let tap = taps.tap(i);
                     let ruled = if inside { None } else { by_rule(view, tap.at) };
@@ -347,11 +359,11 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
             (pattern, &depth.prepared(view, self.receiver)),
             #[inline(always)]
             |taps, compared| {
-                let stored = look::<S, M, P>(simd, map, rect, taps);
+                let stored = look::<_, _, P>(simd, map, rect, taps);
                 if P::EXPLAINS {
                     let nearer = compared.simd_gt(stored).to_bitmask() as u32;
                     let dark = std::array::from_fn(|i| (nearer >> i & 1) as f32);
-                    report(probe, (view, true, false), &{ *taps }, [&compared.into(), &stored.into(), &dark]);
+                    report(probe, (|_| None, false), &{ *taps }, [&compared.into(), &stored.into(), &dark]);
                 }
                 f(taps, compared, stored);
             },
@@ -408,39 +420,6 @@ impl<S: Simd, M, P> fmt::Debug for Query<'_, S, M, P> {
     }
 }
 
-/// A region in the map's texels.
-#[derive(Clone, Copy)]
-struct Area {
-    /// All texels that it touches.
-    rect: TexelRect,
-    /// Whether all of it lies inside the map and the cone.
-    inside: bool,
-}
-
-impl Area {
-    /// [`TexelRect::around`] and [`View::holds`], of all four sides at once where there is no cone. A region of NaN is not inside, and no texel
-    /// in particular is in its rectangle.
-    #[inline(always)]
-    fn of<S: Simd>(simd: S, view: &View, region: &Footprint) -> Self {
-        const FAR: f32 = 1_073_741_824.0;
-        let (centre, half) = (region.centre, region.half);
-        let (low, high) = (centre - half, centre + half);
-        let sides = f32x4::load_array(simd, [low.x, low.y, high.x, high.y]);
-        let whole = sides.floor().max(f32x4::splat(simd, -FAR)).min(f32x4::splat(simd, FAR));
-        let [left, top, right, bottom]: [i32; 4] = whole.to_int::<i32x4<S>>().into();
-        let (min, last) = (IVec2::new(left, top), IVec2::new(right, bottom));
-        let inside = if view.cone().is_some() {
-            view.holds(centre, half)
-        } else {
-            let size = view.size().as_vec2();
-            let within = sides.simd_ge(f32x4::splat(simd, 0.0))
-                & sides.simd_lt(f32x4::load_array(simd, [size.x, size.y, size.x, size.y]));
-            within.all_true()
-        };
-        Self { rect: TexelRect::new(min, last + IVec2::ONE), inside }
-    }
-}
-
 /// Which of sixteen compared depths lie behind what is stored.
 #[inline(always)]
 fn nearer<S: Simd, P>(_: &mut P, compared: f32x16<S>, stored: f32x16<S>, _: u32) -> u32 {
@@ -480,40 +459,6 @@ impl Passing<'_> {
     }
 }
 
-/// What a map stores under sixteen taps. For explanations it is asked one texel after another, which is the same, and compiled once for each map
-/// instead of into every filter.
-#[inline(always)]
-fn look<S: Simd, M: DepthMap, P: Probe>(simd: S, map: &M, rect: TexelRect, taps: &Taps<S>) -> f32x16<S> {
-    if P::EXPLAINS {
-        f32x16::load_array(simd, one_by_one(map, taps.x.into(), taps.y.into()))
-    } else {
-        map.look(simd, rect, taps.x, taps.y)
-    }
-}
-
-#[inline(never)]
-fn one_by_one(map: &impl DepthMap, x: [f32; 16], y: [f32; 16]) -> [f32; 16] {
-    // Indices as a map's own look-up has them: saturated, so that none overflows.
-    let index = |at: f32| at.clamp(-1_073_741_824.0, 1_073_741_824.0).floor() as i32;
-    std::array::from_fn(|i| map.depth(IVec2::new(index(x[i]), index(y[i]))))
-}
-
-/// Reports sixteen taps to a probe: compared depths, stored ones, and answers.
-#[inline(never)]
-fn report<S: Simd>(
-    probe: &mut impl Probe,
-    (view, inside, weighted): (&View, bool, bool),
-    taps: &Taps<S>,
-    [compared, stored, dark]: [&[f32; 16]; 3],
-) {
-    for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
-        let at = taps.tap(i).at;
-        let weight = if weighted { taps.weight[i] } else { 1.0 };
-        let ruled = if inside { None } else { by_rule(view, at) };
-        probe.tapped(&TapJudged { at, stored: stored[i], compared: compared[i], weight, ruled, dark: dark[i] });
-    }
-}
-
 /// The hits of a batch of taps with those outside the map or the cone answered by the view's rules (spec C-10, W92-6). Few regions reach
 /// out, so that this stands apart from the loop around it, which is compiled many times.
 #[inline(never)]
@@ -526,6 +471,11 @@ fn by_rules<S: Simd>(view: &View, taps: &Taps<S>, mut nearer: u32) -> u32 {
         }
     }
     nearer
+}
+
+/// The same where taps may lie outside.
+fn ruled(view: &View, inside: bool, texel: Vec2) -> Option<f32> {
+    if inside { None } else { by_rule(view, texel) }
 }
 
 /// The answer of one tap whose place settles it.

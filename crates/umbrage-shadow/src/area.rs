@@ -1,0 +1,36 @@
+use fearless_simd::{Simd, f32x4, i32x4, prelude::*};
+use glam::IVec2;
+use umbrage_plane::{Footprint, TexelRect, View};
+
+/// A region in the map's texels.
+#[derive(Clone, Copy)]
+pub(crate) struct Area {
+    /// All texels that it touches.
+    pub rect: TexelRect,
+    /// Whether all of it lies inside the map and the cone.
+    pub inside: bool,
+}
+
+impl Area {
+    /// [`TexelRect::around`] and [`View::holds`], of all four sides at once where there is no cone. A region of NaN is not inside, and no texel
+    /// in particular is in its rectangle.
+    #[inline(always)]
+    pub fn of<S: Simd>(simd: S, view: &View, region: &Footprint) -> Self {
+        const FAR: f32 = 1_073_741_824.0;
+        let (centre, half) = (region.centre, region.half);
+        let (low, high) = (centre - half, centre + half);
+        let sides = f32x4::load_array(simd, [low.x, low.y, high.x, high.y]);
+        let whole = sides.floor().max(f32x4::splat(simd, -FAR)).min(f32x4::splat(simd, FAR));
+        let [left, top, right, bottom]: [i32; 4] = whole.to_int::<i32x4<S>>().into();
+        let (min, last) = (IVec2::new(left, top), IVec2::new(right, bottom));
+        let inside = if view.cone().is_some() {
+            view.holds(centre, half)
+        } else {
+            let size = view.size().as_vec2();
+            let within = sides.simd_ge(f32x4::splat(simd, 0.0))
+                & sides.simd_lt(f32x4::load_array(simd, [size.x, size.y, size.x, size.y]));
+            within.all_true()
+        };
+        Self { rect: TexelRect::new(min, last + IVec2::ONE), inside }
+    }
+}
