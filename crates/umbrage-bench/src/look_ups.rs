@@ -3,7 +3,7 @@
 //! Each is there twice: from points of the world, as a renderer asks, and from receivers that are in the light's space already. The
 //! answers are the same bits.
 
-use crate::raster::{first, midpoint, refined, second};
+use crate::raster::{facets, first, midpoint, refined, second};
 use crate::scene::{HALF, Scene, bias};
 use std::fmt;
 use std::sync::Arc;
@@ -106,7 +106,7 @@ pub fn all(scene: &Scene, view: &View) -> Vec<LookUp> {
     let nearest = first(view, &casters).map;
     let (middle, beyond) = (midpoint(view, &casters).map, second(view, &casters).map);
     let deep = bake_deep(view, [casters.iter().copied()], &Deep::default().with_axis(1)).map;
-    let facets = refined(view, &casters).map;
+    let refined = refined(view, &casters).map;
     let mut all = Vec::new();
     /// A filter over a tiled map and over a raw copy of it.
     macro_rules! both {
@@ -117,6 +117,8 @@ pub fn all(scene: &Scene, view: &View) -> Vec<LookUp> {
         };
     }
     both!("pcf-bias", closer(view), &nearest);
+    // Behind the tiled map, which it is held to.
+    all.push(LookUp::new("pcf-bias", "facets", closer(view), facets(view, &casters).map));
     both!("pcf-table", closer(view).with_pattern(Table::default()), &nearest);
     both!("pcf-plane", on_plane(view), &nearest);
     both!("pcf-cone", with_depth(BiasCone::default()), &nearest);
@@ -124,7 +126,7 @@ pub fn all(scene: &Scene, view: &View) -> Vec<LookUp> {
     // Four by four texels are sixteen.
     both!("wang-molnar94", Conditional::default().with_min_size(2.0), &beyond);
     both!("burley", Soft::default(), &nearest);
-    all.push(LookUp::new("auto", "facets", DualPlane::default(), facets));
+    all.push(LookUp::new("auto", "facets", DualPlane::default(), refined));
     all.push(LookUp::new("pcf-bias", "deep", closer(view), deep));
     all
 }

@@ -1,7 +1,7 @@
 use crate::area::Area;
 use crate::explained::{look, report};
 use crate::surfaces::{Channel, Met, Seen, Surfaces};
-use crate::{Compared, Probe, ReceiverDepth, TapJudged};
+use crate::{Compared, Probe, ReceiverDepth};
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::{IVec2, Vec2};
 use std::fmt;

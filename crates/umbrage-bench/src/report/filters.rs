@@ -83,6 +83,9 @@ pub fn look_ups(settings: Settings, side: u32) -> Vec<Row> {
                     ("listing", listing, settings.always(Goal::Faster(least)))
                 }
                 (_, "tiled") => ("raw", taken[2 + 2 * (index - 1) + from], settings.always(Goal::Within(1.15))),
+                ("pcf-bias", "facets") => {
+                    ("tiled", taken[2 + 2 * (index - 1) + from], settings.always(Goal::Within(1.3)))
+                }
                 ("pcf-plane" | "pcf-cone" | "wang-molnar94", _) => {
                     ("pcf-bias raw", closer[from], with(Goal::Within(1.5)))
                 }
