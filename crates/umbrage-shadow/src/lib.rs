@@ -45,8 +45,8 @@ pub use depths::{AnyDepth, BiasCone, Biased, Compared, OnPlane, Radius, Receiver
 pub use explanation::{Explanation, Question};
 pub use fearless_simd::Simd;
 pub use filters::{
-    Conditional, DualPlane, FilteredDepth, IntegerFirst, MapRadius, OccluderFalloff, Opacity, Pcf, Soft, Softness,
-    VirtualWhen, Williams, integer_first, williams,
+    Conditional, DualPlane, FilteredDepth, FromMoments, IntegerFirst, MapRadius, OccluderFalloff, Opacity, Pcf, Soft,
+    Softness, VirtualWhen, Williams, integer_first, moments, williams,
 };
 pub use lights::{
     Around, AroundError, Bounded, Evaluate, LatLong, LatLongError, Mean, Shadow, ShadowMap, Tags, Through, Unshadowed,

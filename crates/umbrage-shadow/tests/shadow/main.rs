@@ -5,6 +5,7 @@ mod around;
 mod burley;
 mod deep;
 mod explained;
+mod moments;
 mod reeves;
 mod tags;
 mod traps;
