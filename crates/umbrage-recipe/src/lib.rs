@@ -24,6 +24,7 @@ mod fields;
 mod kind;
 mod light;
 mod preset;
+mod reach;
 mod recipe;
 mod rsl;
 mod table;
