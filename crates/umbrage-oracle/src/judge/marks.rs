@@ -23,8 +23,8 @@ pub struct Where {
 enum Around {
     /// All of it is lit, or all of it dark.
     Alike,
-    /// More than half is dark.
-    MostlyDark,
+    /// An edge goes through it, and more than half is dark: the mean.
+    MostlyDark(f32),
     /// An edge goes through it.
     Mixed,
 }
@@ -45,7 +45,13 @@ impl Judge<'_> {
                 return [matches!(around, Around::Alike), false, false];
             }
             let without = unbiased.is_some_and(|unbiased| unbiased[pixel] > 0.5);
-            let detached = without && matches!(around, Around::Alike | Around::MostlyDark);
+            let detached = without
+                && match around {
+                    Around::Alike => true,
+                    // What the filter's width makes light is about as dark as all of the box.
+                    Around::MostlyDark(mean) => result[pixel] < 0.5 * mean,
+                    Around::Mixed => false,
+                };
             [false, detached, matches!(around, Around::Alike) && !detached]
         };
         let kinds: Vec<[bool; 3]> = (0..pixels).into_par_iter().map(kind).collect();
@@ -61,6 +67,6 @@ impl Judge<'_> {
             return Around::Alike;
         }
         let mean = truth.iter().sum::<f32>() / truth.len() as f32;
-        if mean > 0.5 { Around::MostlyDark } else { Around::Mixed }
+        if mean > 0.5 { Around::MostlyDark(mean) } else { Around::Mixed }
     }
 }

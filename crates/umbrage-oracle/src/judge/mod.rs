@@ -9,7 +9,7 @@
 //! | false shadow | judged, truth below [`LIT`], result above ½ |
 //! | false light | judged, truth above [`DARK`], result below ½ |
 //! | acne | false shadow farther from truth's edges than the filter looks |
-//! | detachment | false light that is dark in the same picture without any bias, and on a place more than half of which truth has dark |
+//! | detachment | false light that is dark in the same picture without any bias, and not for the filter's width |
 //! | leak | other false light farther from truth's edges than the filter looks |
 //!
 //! **How far the filter looks.** A filter looks at a box of the map about the receiver's place ([`Recipe::reach`](umbrage_recipe::Recipe::reach)), and can be
@@ -18,10 +18,11 @@
 //! Where all of them agree, no edge of truth is as near as the filter looks, whether the camera sees it or something hides it.
 //! In acne, then, what was compared is the receiver's own surface, or one that truth does not see between the receiver and the light.
 //!
-//! For a detachment the picture without bias, of the same filter, takes the place of the distance: what the filter's width alone makes light
-//! is light in both. That most of the box must be dark leaves out what would be dark there by acne alone. Two sheets that are closer together than
-//! the bias count as a detachment as well: without the bias the lower one would be dark. How large a
-//! detachment is, is the distance along the light's ray from the receiver to what truth says blocks it.
+//! For a detachment the picture without bias, of the same filter, takes the place of the distance, so that thin shadows have it too: what the filter's
+//! width alone makes light is light in both. Acne may darken the one without bias, though. So most of the box must be dark in truth, and
+//! the result less than half as dark as all of the box is. Two sheets that are closer together than the bias count as a detachment as well:
+//! without the bias the lower one would be dark. How large a detachment is, is the distance along the light's ray from the receiver to what truth
+//! says blocks it.
 //!
 //! A foreign image has no recipe: its filter is taken to look [`FOREIGN`] pixels far, and detachment and leaks, which only a picture
 //! without bias can tell apart, are left out.
