@@ -14,7 +14,7 @@ struct Rule {
 }
 
 const EVERY: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-io"];
-const COMMAND: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-io", "umbrage-gltf"];
+const COMMAND: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-io", "umbrage-gltf", "umbrage-report"];
 const FIGURES: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-report"];
 const PROPERTIES: &[&str] = &["proptest"];
 

@@ -2,6 +2,7 @@
 
 mod bad_luck;
 mod commands;
+mod compare;
 mod examples;
 mod file_names;
 mod lamps;
