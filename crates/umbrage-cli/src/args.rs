@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::compare_args::CompareArgs;
 use crate::values::{
     Area, Frames, MOST_PICTURES, Shard, area, frames, pixel, radius, samples, seconds, shard, size, tolerance,
 };
@@ -53,6 +54,21 @@ pub enum Command {
   umbrage shadow gallery:three-lights --truth --size 128x128 --format exr -o truth
   umbrage shadow gallery:three-lights --size 96x72 --shard 1/2 -o shared")]
     Shadow(ShadowArgs),
+    /// Judge recipes at map sizes, or a shadow image of your own, by ray-traced truth: every fault by name
+    #[command(after_help = "Exit codes: 0, and 3 where something is above what --fail-above allows.
+
+Faults are shares of the pixels that are judged: those that see one surface, inside the light's map and cone, which it faces.
+  false shadow  dark, and lit in truth
+  false light   lit, and dark in truth
+  acne          false shadow farther from truth's edges than the filter looks: the surface shades itself
+  detachment    false light that is dark without the recipe's bias: the bias is what makes it light
+  leak          other false light farther from truth's edges than the filter looks
+
+Examples:
+  umbrage compare gallery:contact-box --size 96x72 --samples 4 --map-size 128 -o compared
+  umbrage compare gallery:table --recipe auto reeves87,bias=15 --map-size 128 256 --size 96x72 --fail-above rms=0.5,leak=5%
+  umbrage compare gallery:three-lights --light red --size 128x128 --against truth/three-lights.red.exr --fail-above rms=0.02")]
+    Compare(CompareArgs),
     /// Give pictures that were drawn by shards their names, once all of them are there
     #[command(after_help = "The folder .parts in DIR is where shards leave them; it is removed.
 

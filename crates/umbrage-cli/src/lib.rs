@@ -5,6 +5,8 @@
 mod args;
 mod bake;
 mod bias;
+mod compare;
+mod compare_args;
 mod digest;
 mod draws;
 mod explain;
@@ -24,6 +26,7 @@ mod parts;
 mod pictures;
 mod render;
 mod report;
+mod scores;
 mod shadow;
 mod shell;
 mod stage;
@@ -32,12 +35,12 @@ mod values;
 
 use args::{Cli, Command};
 use clap::Parser;
-use shell::{Output, Shell, Usage};
+use shell::{Exceeded, Output, Shell, Usage};
 use std::ffi::OsString;
 use std::io::{BufRead, ErrorKind, Write};
 
 /// Runs a command line, the program's name first, and returns its exit code: 0 for success, 1 for a failure, 2 for a command line that makes no
-/// sense. Every failure is one line on `err`. If `err` `is_terminal`, errors have colours and
+/// sense, 3 where `compare` found more than `--fail-above` allows. Every failure is one line on `err`. If `err` `is_terminal`, errors have colours and
 /// progress bars are drawn on the process's standard error.
 pub fn run(
     args: impl IntoIterator<Item = OsString>,
@@ -71,7 +74,11 @@ pub fn run(
             let line = line(&error);
             let error_word = if coloured { "\x1b[1;31merror:\x1b[0m" } else { "error:" };
             let _ = writeln!(err, "{error_word} {line}");
-            if error.is::<Usage>() { 2 } else { 1 }
+            match error {
+                error if error.is::<Usage>() => 2,
+                error if error.is::<Exceeded>() => 3,
+                _ => 1,
+            }
         }
     }
 }
@@ -105,6 +112,7 @@ fn command(cli: &Cli, shell: &mut Shell<'_>) -> anyhow::Result<()> {
         Command::Shadow(args) => shadow::run(cli, args, shell),
         Command::Gather(args) => gather::run(cli, args, shell),
         Command::Jobs(args) => farm::run(args, shell),
+        Command::Compare(args) => compare::run(cli, args, shell),
         Command::Bake(args) => bake::run(cli, args, shell),
         Command::Bias(args) => bias::run(cli, args, shell),
         Command::Explain(args) => explain::run(cli, args, shell),

@@ -21,6 +21,9 @@ const PER_TEXEL: u64 = 64;
 /// Bytes for each texel of the finished maps of a light with a size; only one of them at a time is being made.
 const PER_KEPT_TEXEL: u64 = 16;
 
+/// Bytes for each pixel of each result that is kept beside truth.
+const PER_RESULT_PIXEL: u64 = 128;
+
 /// What a command is about to hold.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Need {
@@ -31,11 +34,13 @@ pub struct Need {
     pub texels: u64,
     /// Texels of all maps of a light with a size.
     pub kept_texels: u64,
+    /// Pictures of results that are kept beside truth.
+    pub results: u64,
 }
 
 impl Need {
     /// 64 MiB + 8 × the file + 512 bytes for each pixel + 64 for each sample + 1024 for each triangle + 64 for each texel of a map
-    /// + 16 for each texel of all maps of a light with a size.
+    /// + 16 for each texel of all maps of a light with a size + 128 for each pixel of each result that is kept beside truth.
     pub fn bytes(&self) -> u64 {
         let pixels = u64::from(self.picture.x) * u64::from(self.picture.y);
         let picture = pixels.saturating_mul(PER_PIXEL + PER_SAMPLE * u64::from(self.samples));
@@ -44,6 +49,7 @@ impl Need {
             .saturating_add(self.triangles.saturating_mul(PER_TRIANGLE))
             .saturating_add(self.texels.saturating_mul(PER_TEXEL))
             .saturating_add(self.kept_texels.saturating_mul(PER_KEPT_TEXEL))
+            .saturating_add(pixels.saturating_mul(PER_RESULT_PIXEL).saturating_mul(self.results))
     }
 
     /// Bytes that may be held beside all this.

@@ -17,7 +17,7 @@ use umbrage_io::{encode_exr_values, encode_png_values};
 use umbrage_oracle::{AreaLight, Geometry, RayCast, Truth};
 use umbrage_plane::{SurfacePoint, View};
 use umbrage_recipe::Recipe;
-use umbrage_render::{Frame, picture};
+use umbrage_render::{Frame, Picture, picture};
 use umbrage_sample::Key;
 use umbrage_scene::Scene;
 use umbrage_shadow::Shadow;
@@ -91,19 +91,20 @@ impl Draws for Shadows<'_> {
         for (file, lamp) in wanted {
             progress.set_message(format!("{}{}", take.label, lamp.name));
             let start = Instant::now();
-            let area = area(&stage, lamp, args)?;
-            let (fractions, recipe, bytes, baked) = if let Some(geometry) = &geometry {
+            let area = area(&stage, lamp, args.area)?;
+            let (mut picture, recipe, bytes, baked) = if let Some(geometry) = &geometry {
                 let frame = Frame { every_sample: true, ..frame };
-                (by_rays(&stage, lamp, geometry, area, &frame), "rays".into(), 0, Duration::ZERO)
+                let rays = rays(&stage, lamp, geometry, area, &frame);
+                (drawn(&stage.scene, lamp, &[&*rays], &frame), "rays".into(), 0, Duration::ZERO)
             } else {
                 let recipe = recipe(&stage.recipe_of(lamp)?, area, args.window)?;
                 let made = lamp::shadow_of(&stage, lamp, &recipe)?;
                 let baked = start.elapsed();
                 let bytes = made.maps.iter().map(|map| map.bytes).sum();
-                (drawn(&stage.scene, lamp, &*made.shadow, &frame), recipe.to_string(), bytes, baked)
+                (drawn(&stage.scene, lamp, &[&*made.shadow], &frame), recipe.to_string(), bytes, baked)
             };
             let looked_up = start.elapsed().saturating_sub(baked);
-            keep(file, encode(stage.scene.camera.size(), &fractions))?;
+            keep(file, encode(stage.scene.camera.size(), &picture.shadow.swap_remove(0)))?;
             lines.push(Line { light: lamp.name.clone(), recipe, bytes, baked, looked_up });
             progress.inc(1);
         }
@@ -141,8 +142,11 @@ pub fn frame(samples: u32, seed: u32, number: u32) -> Frame {
 }
 
 /// The radius of a light that is to be filtered for: world units, or the tangent of a sun's angle.
-fn area(stage: &Stage, lamp: &Lamp, args: &ShadowArgs) -> anyhow::Result<Option<f64>> {
-    let radius = match args.area {
+///
+/// # Errors
+/// A light without a radius where the scene's is asked for.
+pub fn area(stage: &Stage, lamp: &Lamp, area: Option<Area>) -> anyhow::Result<Option<f64>> {
+    let radius = match area {
         None => return Ok(None),
         Some(Area::File) => lamp.radius,
         Some(Area::Radius(radius)) => radius,
@@ -156,7 +160,10 @@ fn area(stage: &Stage, lamp: &Lamp, args: &ShadowArgs) -> anyhow::Result<Option<
 }
 
 /// A recipe with the window and the size of the light that the command line names.
-fn recipe(recipe: &Recipe, area: Option<f64>, window: WindowArg) -> anyhow::Result<Recipe> {
+///
+/// # Errors
+/// A recipe that does not know them.
+pub fn recipe(recipe: &Recipe, area: Option<f64>, window: WindowArg) -> anyhow::Result<Recipe> {
     let mut text = recipe.to_string();
     if window == WindowArg::Fitted {
         text += ",window=fitted";
@@ -167,36 +174,41 @@ fn recipe(recipe: &Recipe, area: Option<f64>, window: WindowArg) -> anyhow::Resu
     text.parse().map_err(|error| Usage(format!("recipe {text}: {error}")).into())
 }
 
-/// The scene under one of its lights, with all objects receiving the shadow.
-pub fn lit_alone(scene: &Scene, lamp: &Lamp) -> Scene {
-    let mut one = Scene { lights: vec![scene.lights[lamp.light].clone()], ..scene.clone() };
+/// The scene under so many copies of one of its lights, with all objects receiving the shadow.
+pub fn lit_alone(scene: &Scene, lamp: &Lamp, copies: usize) -> Scene {
+    let mut one = Scene { lights: vec![scene.lights[lamp.light].clone(); copies], ..scene.clone() };
     one.objects.iter_mut().for_each(|object| object.receives = true);
     one
 }
 
-/// The fraction in shadow of each pixel, by one light.
-fn drawn(scene: &Scene, lamp: &Lamp, shadow: &dyn Shadow, frame: &Frame) -> Vec<f32> {
-    let one = lit_alone(scene, lamp);
-    let turned = Turned { shadow, light: &one.lights[0].view };
-    picture(&one, &[&turned], frame).shadow.swap_remove(0)
+/// The picture under one light: the fraction in shadow of each pixel, once by each of several shadows of it.
+pub fn drawn(scene: &Scene, lamp: &Lamp, shadows: &[&dyn Shadow], frame: &Frame) -> Picture {
+    let one = lit_alone(scene, lamp, shadows.len());
+    let light = &scene.lights[lamp.light];
+    let turned: Vec<Turned<'_>> = shadows.iter().map(|shadow| Turned { shadow: *shadow, light: &light.view }).collect();
+    let turned: Vec<&dyn Shadow> = turned.iter().map(|turned| turned as &dyn Shadow).collect();
+    picture(&one, &turned, frame)
 }
 
-/// Calls `ask` with rays toward a light.
-pub fn ray<T>(stage: &Stage, lamp: &Lamp, geometry: &Geometry, ask: impl FnOnce(RayCast<'_>) -> T) -> T {
+/// Rays toward a light, all of its area where it is given one.
+pub fn rays<'a>(
+    stage: &Stage,
+    lamp: &Lamp,
+    geometry: &'a Geometry,
+    area: Option<f64>,
+    frame: &Frame,
+) -> Box<dyn Shadow + 'a> {
     let view = &stage.scene.lights[lamp.light].view;
     let all_around = lamp.views.len() > 1 && view.cone().is_none();
     let ray = if all_around { RayCast::everywhere(geometry, view.light()) } else { RayCast::new(geometry, view) };
-    ask(ray.with(Truth { look_everywhere: true, ..Truth::default() }))
-}
-
-fn by_rays(stage: &Stage, lamp: &Lamp, geometry: &Geometry, area: Option<f64>, frame: &Frame) -> Vec<f32> {
-    ray(stage, lamp, geometry, |ray| match area {
-        None => drawn(&stage.scene, lamp, &ray, frame),
+    let ray = ray.with(Truth { look_everywhere: true, ..Truth::default() });
+    match area {
+        None => Box::new(ray),
         Some(radius) => {
             let rays = AREA_RAYS[usize::from(frame.axis == 1)];
-            drawn(&stage.scene, lamp, &AreaLight::new(ray, radius).with_samples(rays), frame)
+            Box::new(AreaLight::new(ray, radius).with_samples(rays))
         }
-    })
+    }
 }
 
 /// A shadow in which surfaces that face away from the light are dark, whatever maps say of them.

@@ -104,6 +104,21 @@ impl Stage {
         Ok(Self { scene, lamps, casting, recipe, max_memory, need })
     }
 
+    /// The same with maps of so many texels a side.
+    ///
+    /// # Errors
+    /// A size that a light's view cannot have.
+    pub fn resize(&mut self, map_size: u32) -> anyhow::Result<()> {
+        let size = UVec2::splat(map_size);
+        for lamp in &mut self.lamps {
+            let light = &mut self.scene.lights[lamp.light];
+            for view in lamp.views.iter_mut().chain([&mut light.view]) {
+                *view = view.with_size(size).context("--map-size")?;
+            }
+        }
+        Ok(())
+    }
+
     /// The light's part of a file's name: nothing where the scene has one light that casts.
     pub fn part<'a>(&self, lamp: &'a Lamp) -> Option<&'a str> {
         (self.casting > 1).then_some(lamp.name.as_str())

@@ -9,7 +9,8 @@
 //! * [`write_shadow_map_by_rows`]: the file of a map that is larger than memory, row of tiles by row of tiles.
 //! * [`Paged`]: a shadow map's file with only the tiles looked at last in memory (R87-20).
 //! * [`write_png`], [`write_png_grey`], [`write_exr`]: pictures from linear light; [`read_png`] for comparing.
-//! * [`encode_png_values`], [`encode_exr_values`]: a quantity for each pixel, such as a fraction in shadow, without a curve.
+//! * [`encode_png_values`], [`encode_exr_values`]: a quantity for each pixel, such as a fraction in shadow, without a curve;
+//!   [`read_values`] and [`decode_values`] read it.
 //! * [`read_map`]: whichever of these maps a file holds.
 //! * [`write_maps`] and [`read_maps`]: several of them in one file, a part for each, by name; [`MapOptions`] help with files of other makers.
 //! * [`depth_view`] and [`replicate`]: a map as a grey picture, a zoom without invention.
@@ -41,6 +42,7 @@ mod named;
 mod paged;
 mod picture;
 mod shadow_map;
+mod values;
 mod write_file;
 
 pub use any_map::{Maps, NamedMap, decode_map, decode_maps, encode_maps, read_map, read_maps, write_maps};
@@ -65,4 +67,5 @@ pub use shadow_map::{
     TileRows, decode_shadow_map, encode_shadow_map, read_shadow_map, read_shadow_map_within, write_shadow_map,
     write_shadow_map_by_rows,
 };
+pub use values::{Values, decode_values, read_values};
 pub use write_file::{write_atomic, write_bytes};

@@ -209,6 +209,11 @@ impl Geometry {
         }
     }
 
+    /// The same as a place of the world.
+    pub(crate) fn on_facet(&self, point: &SurfacePoint) -> DVec3 {
+        self.origin + self.settled(point).at
+    }
+
     /// The facets of an object, or of any, that are near enough to a place for [`Geometry::settled`].
     fn facets_about(&self, node: &Bvh2Node, place: DVec3, object: Option<u32>, found: &mut Vec<Near>) {
         let about = place.abs().max_element();

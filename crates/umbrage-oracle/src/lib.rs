@@ -3,7 +3,8 @@
 //! The oracle is one more [`Shadow`](umbrage_shadow::Shadow): [`RayCast`] answers exactly for a point, [`AreaRegion`]
 //! for a pixel's region, [`AreaLight`] for a light with extent, [`Mean`](umbrage_shadow::Mean) of them for a time that the shutter is open. [`metrics`]
 //! are the measures M1..M9 of the figures, [`faults`] gives the named faults of a picture with a heat map of each,
-//! [`predict`] what theory expects, [`BiasCase`], [`BiasSearch`] and [`BiasTrial`] whether a bias works, [`diagnose`] what to mend.
+//! [`judge`] those of any scene without a place put by hand, [`predict`] what theory expects, [`BiasCase`], [`BiasSearch`] and [`BiasTrial`] whether a
+//! bias works, [`diagnose`] what to mend.
 //!
 //! ```
 //! use glam::{DVec4, Vec3};
@@ -26,6 +27,7 @@ mod diagnose;
 mod diagnostic;
 mod faults;
 mod geometry;
+pub mod judge;
 pub mod metrics;
 mod plan;
 pub mod predict;

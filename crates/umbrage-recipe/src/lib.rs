@@ -25,6 +25,7 @@ mod kind;
 mod light;
 mod moments;
 mod preset;
+mod reach;
 mod recipe;
 mod rsl;
 mod table;

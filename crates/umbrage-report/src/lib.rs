@@ -4,7 +4,7 @@
 //! An [`Entry`] says what a figure is called and how it is [made](Made). A [`Run`] makes its entries one after another into
 //! a folder: a folder for each figure, `report.json`, `timings.json`, and `index.html`, which needs nothing from elsewhere.
 //! A figure that was made by the same program with the same settings is kept, and a run of some figures leaves the others
-//! on the page. This crate knows no paper and no scene.
+//! on the page. [`show`] makes such a page of figures that are there already. This crate knows no paper and no scene.
 //!
 //! ```no_run
 //! use umbrage_report::{Entry, Heading, Made, Measure, Run, Verdict};
@@ -32,10 +32,13 @@ mod panel;
 pub mod plot;
 mod record;
 mod run;
+mod shown;
 pub mod text;
 
 pub use made::{Made, Table, Verdict};
 pub use measure::{Bound, Kind, Measure};
+pub use page::Words;
 pub use panel::{Panel, Role};
 pub use record::{FigureRecord, Heading, MeasureRecord, PanelRecord, Report, TableRecord};
 pub use run::{Entry, Run, summary};
+pub use shown::show;

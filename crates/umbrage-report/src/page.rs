@@ -18,11 +18,37 @@ pub struct Beside {
     pub tables: BTreeMap<(String, String), Table>,
 }
 
+/// What stands on top of a page.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Words {
+    /// The title of the window.
+    pub title: String,
+    /// The heading.
+    pub heading: String,
+    /// A sentence under it.
+    pub lead: String,
+}
+
+impl Default for Words {
+    /// The gallery of the papers' figures.
+    fn default() -> Self {
+        Self {
+            title: "Umbrage: figures".into(),
+            heading: "Shadows from depth maps".into(),
+            lead: "The figures of the papers, made again from their algorithms and measured against ray-traced truth."
+                .into(),
+        }
+    }
+}
+
 /// The page's text.
-pub fn html(report: &Report, quick: bool, beside: &Beside) -> String {
+pub fn html(report: &Report, words: &Words, quick: bool, beside: &Beside) -> String {
     fill(include_str!("gallery/page.html"), |slot| match slot {
         "css" => include_str!("gallery/page.css").into(),
         "js" => include_str!("gallery/page.js").into(),
+        "title" => attribute(&words.title),
+        "heading" => set(&words.heading),
+        "lead" => set(&words.lead),
         "tally" => tally(report),
         "quick" if quick => {
             "<p class=\"quick\">A quick run: pictures are smaller, and bounds that need full size are not judged.</p>"
@@ -148,12 +174,14 @@ fn sections(report: &Report, beside: &Beside) -> String {
 
 fn article(figure: &FigureRecord, beside: &Beside) -> String {
     let id = escape(&figure.id);
+    let claim = match set(&figure.claim) {
+        none if none.is_empty() => none,
+        claim => format!("<p class=\"claim\"><span>Must show</span> {claim}</p>"),
+    };
     let mut text = format!(
-        "<article id=\"{id}\"><header><p class=\"line\"><a href=\"#{id}\" class=\"id\">{id}</a>{}</p><h3>{}</h3>\
-         <p class=\"claim\"><span>Must show</span> {}</p></header>\n",
+        "<article id=\"{id}\"><header><p class=\"line\"><a href=\"#{id}\" class=\"id\">{id}</a>{}</p><h3>{}</h3>{claim}</header>\n",
         badge(figure.verdict),
         set(&figure.title),
-        set(&figure.claim)
     );
     if let Some(earlier) = &figure.earlier {
         let _ = writeln!(text, "<p class=\"earlier\"><b>Kept from an earlier run</b>, {}.</p>", set(earlier));
@@ -336,7 +364,7 @@ mod tests {
 
     fn page() -> String {
         let plots = [(("T-1".to_string(), "curve".to_string()), "<svg id=\"plot\"></svg>".to_string())];
-        html(&report(), true, &Beside { plots: plots.into(), ..Beside::default() })
+        html(&report(), &Words::default(), true, &Beside { plots: plots.into(), ..Beside::default() })
     }
 
     #[test]
@@ -356,18 +384,24 @@ mod tests {
         assert!(page.contains("src=\"T-1/result.png\"") && page.contains("<svg id=\"plot\">"));
         assert!(page.contains("aria-label=\"Wipe between") && page.contains("badge v-caveat"));
         assert!(!page.contains("12.345"), "x8 no times");
-        assert!(page.contains("A quick run") && !html(&report(), false, &Beside::default()).contains("A quick run"));
+        assert!(
+            page.contains("A quick run")
+                && !html(&report(), &Words::default(), false, &Beside::default()).contains("A quick run")
+        );
     }
 
     #[test]
     fn an_empty_report_is_a_page_too() {
-        assert!(html(&Report { figures: Vec::new() }, false, &Beside::default()).contains("<b>0</b> figures"));
+        assert!(
+            html(&Report { figures: Vec::new() }, &Words::default(), false, &Beside::default())
+                .contains("<b>0</b> figures")
+        );
     }
 
     fn one(measures: Vec<Measure>, claim: &str) -> String {
         let heading = Heading { id: "T-1".into(), paper: "P".into(), title: "T".into(), claim: claim.into() };
         let made = Made { measures, ..Made::default() };
-        html(&Report { figures: vec![FigureRecord::new(&heading, &made)] }, true, &Beside::default())
+        html(&Report { figures: vec![FigureRecord::new(&heading, &made)] }, &Words::default(), true, &Beside::default())
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use crate::folder::{self, Origin, Timings};
 use crate::made::{Made, Verdict};
-use crate::page::{self, Beside};
+use crate::page::{self, Beside, Words};
 use crate::record::{FigureRecord, Heading, Report};
 use crate::text::figures;
 use anyhow::Context as _;
@@ -95,7 +95,7 @@ impl Run<'_> {
             standing.values().map(|(record, seconds)| (record.id.as_str(), seconds)).collect();
         let report = Report { figures: standing.values().map(|(record, _)| record.clone()).collect() };
         self.write("timings.json", &(serde_json::to_string_pretty(&timings)? + "\n"))?;
-        self.write("index.html", &page::html(&report, self.quick, &self.beside(&report)?))?;
+        self.write("index.html", &page::html(&report, &Words::default(), self.quick, &self.beside(&report)?))?;
         self.write("report.json", &report.json()?)
     }
 

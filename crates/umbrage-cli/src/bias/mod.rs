@@ -7,6 +7,7 @@ pub use found::short;
 
 use crate::args::{BiasArgs, Cli};
 use crate::names;
+use crate::shadow::lit_alone;
 use crate::shell::{Shell, Usage};
 use crate::stage::{Lamp, Stage};
 use anyhow::Context;
@@ -80,8 +81,7 @@ fn filter(radius: f64) -> String {
 
 /// What the camera sees of a light by rays, at the centre of each pixel, and the pixels of a row.
 fn truth(scene: &Scene, lamp: &Lamp, geometry: &Geometry) -> (Vec<TruePixel>, usize) {
-    let mut one = Scene { lights: vec![scene.lights[lamp.light].clone()], ..scene.clone() };
-    one.objects.iter_mut().for_each(|object| object.receives = true);
+    let one = lit_alone(scene, lamp, 1);
     let rays = RayCast::new(geometry, &one.lights[0].view).with(Truth { look_everywhere: true, ..Truth::default() });
     let seen = picture(&one, &[&rays], &Frame::CENTRES);
     let pixel = |index: usize| TruePixel {

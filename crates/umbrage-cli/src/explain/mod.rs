@@ -80,16 +80,19 @@ impl Lit<'_> {
         let index = at[1] * self.stage.scene.camera.size().x + at[0];
         let recorder = Recorder::new(&*self.shadow);
         let value = self.pixel(&recorder, &self.frame, index);
-        let truth = shadow::ray(self.stage, self.lamp, self.geometry, |ray| {
-            self.pixel(&ray, &Frame { every_sample: true, ..self.frame }, index)
-        });
+        let truth = self.pixel(&*self.rays(), &Frame { every_sample: true, ..self.frame }, index);
         let regions = recorder.asked()?.iter().map(|asked| self.region(asked)).collect::<anyhow::Result<_>>()?;
         Ok(Words { at, light: &self.lamp.name, recipe: self.recipe.to_string(), value, truth, regions })
     }
 
+    /// The truth.
+    fn rays(&self) -> Box<dyn Shadow + '_> {
+        shadow::rays(self.stage, self.lamp, self.geometry, None, &self.frame)
+    }
+
     /// A pixel as `umbrage shadow` draws it.
     fn pixel(&self, shadow: &dyn Shadow, frame: &Frame, index: u32) -> f32 {
-        let one = shadow::lit_alone(&self.stage.scene, self.lamp);
+        let one = shadow::lit_alone(&self.stage.scene, self.lamp, 1);
         let turned = Turned { shadow, light: &one.lights[0].view };
         picture_where(&one, &[&turned], frame, |other| other == index).shadow[0][index as usize]
     }
@@ -112,7 +115,7 @@ impl Lit<'_> {
             fraction: asked.fraction,
             maps,
             blockers: blockers.map(|(object, distance)| (name(object), distance)).collect(),
-            truth: shadow::ray(self.stage, self.lamp, self.geometry, |ray| ray.at(&asked.point)),
+            truth: self.rays().fraction(&asked.point, asked.key),
             fault: None,
         };
         region.fault = fault::of(&region.answers(), || self.without_bias(asked))?;

@@ -39,12 +39,13 @@ fn lines(text: &str) -> Vec<&str> {
 fn every_example_of_help_runs() {
     let folder = folder("examples-help");
     // Maps are baked before they are asked about.
-    let commands = ["render", "shadow", "gather", "jobs", "bake", "export", "info", "lookup", "recipes", "scenes"];
+    let commands =
+        ["render", "shadow", "compare", "gather", "jobs", "bake", "export", "info", "lookup", "recipes", "scenes"];
     for command in commands {
         let help = shell(&folder, &format!("umbrage {command} --help"));
         let (_, examples) = help.split_once("Examples:").expect("examples");
         let examples = lines(examples);
-        let shown = if ["render", "shadow"].contains(&command) { 3 } else { 2 };
+        let shown = if ["render", "shadow", "compare"].contains(&command) { 3 } else { 2 };
         assert_eq!(examples.len(), shown, "{command}: {examples:?}");
         for line in examples {
             shell(&folder, line);

@@ -3,6 +3,7 @@
 mod bad_luck;
 mod biases;
 mod commands;
+mod compare;
 mod examples;
 mod explained;
 mod file_names;

@@ -129,18 +129,10 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         Measure::info("no bias: false shadow", bare.false_shadow, "share"),
         Measure::info("slope-scaled bias of the filter's half: false shadow", best.false_shadow, "share"),
         Measure::info("slope-scaled bias of the filter's half: false light", best.false_light, "share"),
-        Measure::at_most("auto: mean shadow where truth is lit", lit, "share", 0.01).full_size(cx.quick),
-        Measure::at_most("auto: mean light where truth is dark", 1.0 - dark, "share", 0.01).full_size(cx.quick),
+        Measure::at_most("auto: pixels that are wrong by more than a half", wrong, "share", 0.01).full_size(cx.quick),
     ];
     made.note = "Every engine's default bias over one map, under one filter of nine texels: engines' own filters differ. One unit of the scene is taken for one of the \
                  engine's, a metre in most; the room is 24 across. The numbers are those of the receiver in the middle; each pixel has its own."
         .into();
     Ok(made)
-}
-
-/// Mean of values where truth has a value.
-fn mean_of(values: &[f32], truth: &[f32], at: f32) -> f64 {
-    let all: Vec<f64> =
-        values.iter().zip(truth).filter(|(_, truth)| **truth == at).map(|(value, _)| f64::from(*value)).collect();
-    all.iter().sum::<f64>() / all.len().max(1) as f64
 }

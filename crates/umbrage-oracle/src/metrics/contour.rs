@@ -47,6 +47,8 @@ pub struct Deviation {
     pub rms: f64,
     /// Mean signed distance; positive where the contour runs inside truth's shadow: the shadow is too small.
     pub mean: f64,
+    /// Mean distance without its sign.
+    pub absolute: f64,
     /// Length of contour that was measured, pixels.
     pub length: f64,
 }
@@ -62,7 +64,12 @@ pub fn contour_deviation(image: Grid, truth: Grid, reach: f64) -> Option<Deviati
 pub(crate) fn deviation(pieces: &[Offset]) -> Option<Deviation> {
     let length: f64 = pieces.iter().map(|piece| piece.length).sum();
     let weighted = |f: fn(f64) -> f64| pieces.iter().map(|piece| piece.length * f(piece.shift)).sum::<f64>() / length;
-    (length > 0.0).then(|| Deviation { rms: weighted(|d| d * d).sqrt(), mean: weighted(|d| d), length })
+    (length > 0.0).then(|| Deviation {
+        rms: weighted(|d| d * d).sqrt(),
+        mean: weighted(|d| d),
+        absolute: weighted(f64::abs),
+        length,
+    })
 }
 
 /// A piece of an image's contour and its signed distance from truth's.

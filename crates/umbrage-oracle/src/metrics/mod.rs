@@ -16,8 +16,10 @@
 //! | M8 leak | [`dark_mask`], [`leak`] |
 //! | where second depth is judged | [`silhouette_distance`] |
 //! | M9 share of pixels | [`share`] |
+//! | how far a shadow is moved | [`displacement`] |
 
 mod contour;
+mod displacement;
 mod edge;
 mod fit;
 mod mask;
@@ -29,6 +31,7 @@ use glam::DVec2;
 
 pub use contour::{Deviation, Segment, contour, contour_deviation};
 pub(crate) use contour::{deviation, offsets};
+pub use displacement::displacement;
 pub use edge::{Band, Profile, contact_gap, profile};
 pub use fit::{Fit, linear_fit, log_log_fit};
 pub use mask::{both, centroid, dark_mask, edge_mask, grown, iou, lit_mask, penumbra_mask, share};

@@ -5,6 +5,7 @@ mod diagnose;
 mod exact;
 mod faults;
 mod holes;
+mod judge;
 mod metrics;
 mod predict;
 mod rays;

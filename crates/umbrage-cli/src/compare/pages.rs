@@ -1,0 +1,137 @@
+//! The page of a comparison: results beside truth, heat maps, and the numbers.
+
+use super::table;
+use crate::scores::{Limits, NUMBERS, Row, SHOWN};
+use glam::{UVec2, Vec3};
+use std::path::{Path, PathBuf};
+use umbrage_oracle::heat;
+use umbrage_oracle::judge::Where;
+use umbrage_report::{Heading, Made, Measure, Panel, Role, Table, Words, show};
+
+/// Truth of a light.
+pub struct Truth {
+    pub light: String,
+    /// The fraction in shadow of each pixel.
+    pub shadow: Vec<f32>,
+    /// Which pixels are judged.
+    pub judged: Vec<bool>,
+}
+
+/// Colours of the faults, linear RGB, with their names and what the legend calls the colours. They are of different brightness, too.
+const FAULTS: [(&str, &str, Vec3); 5] = [
+    ("acne", "orange", Vec3::new(1.0, 0.3, 0.0)),
+    ("detachment", "cyan", Vec3::new(0.0, 0.75, 1.0)),
+    ("leak", "magenta", Vec3::new(0.9, 0.0, 0.6)),
+    ("other false shadow", "brown", Vec3::new(0.25, 0.07, 0.01)),
+    ("other false light", "blue", Vec3::new(0.02, 0.06, 0.5)),
+];
+
+/// Writes the page and all that it shows into a folder, and returns the names of the files that people look at.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write(
+    out: &Path,
+    scene: &str,
+    size: UVec2,
+    truths: &[Truth],
+    rows: &[Row],
+    limits: Option<&Limits>,
+) -> anyhow::Result<Vec<PathBuf>> {
+    let figures: Vec<(Heading, Made)> = truths.iter().map(|truth| figure(scene, size, truth, rows, limits)).collect();
+    let words = Words {
+        title: format!("Umbrage: {scene}"),
+        heading: format!("Shadows of {scene}"),
+        lead: "Each result beside ray-traced truth, and every fault by name.".into(),
+    };
+    let report = show(out, &words, &figures)?;
+    let panels = report.figures.iter().flat_map(|figure| &figure.panels).map(|panel| out.join(&panel.file));
+    Ok(std::iter::once(out.join("index.html")).chain(panels).collect())
+}
+
+fn figure(scene: &str, size: UVec2, truth: &Truth, rows: &[Row], limits: Option<&Limits>) -> (Heading, Made) {
+    let heading = Heading {
+        id: format!("light-{}", truth.light),
+        paper: scene.into(),
+        title: format!("Under {}", truth.light),
+        claim: String::new(),
+    };
+    let own: Vec<&Row> = rows.iter().filter(|row| row.light == truth.light).collect();
+    let mut made = Made::default();
+    let judged = truth.judged.iter().filter(|judged| **judged).count();
+    for (index, row) in own.iter().enumerate() {
+        // Two recipes may differ in signs alone, which names of files leave out.
+        let size_of = row.made.as_ref().map(|made| format!(" {}", made.map_size)).unwrap_or_default();
+        let name = format!("{} {}{size_of}", index + 1, row.what);
+        let caption = match &row.made {
+            Some(made) => format!("{}, {} texels", row.what, made.map_size),
+            None => row.what.clone(),
+        };
+        let mut result = shadow(&name, &caption, size, &row.shadow).against("truth");
+        let mut faults = Panel::rgb(&format!("{name} faults"), &format!("{caption}: faults"), size, faults(row, truth));
+        faults = faults.role(Role::Error);
+        for number in &NUMBERS[..SHOWN] {
+            let Some(value) = (number.of)(row) else { continue };
+            let text = number.text(value);
+            match FAULTS.iter().find(|fault| fault.0 == number.name) {
+                Some((_, colour, _)) => faults = faults.with(number.head, format!("{text}, {colour}")),
+                None => result = result.with(number.head, text),
+            }
+        }
+        for (at, (name, colour, _)) in FAULTS.iter().enumerate().skip(3) {
+            let count = kinds(&row.score.places).filter(|kind| *kind == Some(at)).count();
+            let share = NUMBERS[1].text(count as f64 / judged.max(1) as f64);
+            faults = faults.with(name, format!("{share}, {colour}"));
+        }
+        let differences = row.shadow.iter().zip(&truth.shadow).map(|(own, truth)| heat(own - truth)).collect();
+        let error = Panel::rgb(&format!("{name} error"), &format!("{caption}: less truth"), size, differences);
+        let error = error.role(Role::Error).with("too dark", "orange").with("too light", "blue");
+        made.panels.extend([result, faults, error]);
+        made.measures.extend(limits.into_iter().flat_map(|limits| limits.of(row)).map(|limited| {
+            let scale = if limited.number.is_share { 100.0 } else { 1.0 };
+            let unit = if limited.number.is_share { "%" } else { "" };
+            let name = format!("{caption}: {}", limited.number.head);
+            Measure::at_most(&name, limited.value * scale, unit, limited.most * scale)
+        }));
+    }
+    let panel = shadow("truth", "Ray-traced truth", size, &truth.shadow).role(Role::Truth);
+    made.panels.push(panel.with("judged pixels", judged));
+    let (head, rows) = table::table(own.iter().copied());
+    made.tables.push(Table { name: "faults".into(), head, rows });
+    let (head, rows) = table::further(own.iter().copied());
+    made.tables.push(Table { name: "further".into(), head, rows });
+    made.note = "Shares are of the judged pixels: those that see one surface, inside the light's map and its cone, which it faces. What is not judged is darker \
+                 in the maps of faults."
+        .into();
+    (heading, made)
+}
+
+/// A shadow as one looks at it: light where lit.
+fn shadow(name: &str, caption: &str, size: UVec2, shadow: &[f32]) -> Panel {
+    Panel::grey(name, caption, size, shadow.iter().map(|shadow| 1.0 - shadow).collect())
+}
+
+/// The fault of each pixel, as its place in [`FAULTS`].
+fn kinds(places: &Where) -> impl Iterator<Item = Option<usize>> + '_ {
+    let marked = |mask: &Option<Vec<bool>>, pixel: usize| mask.as_ref().is_some_and(|mask| mask[pixel]);
+    (0..places.acne.len()).map(move |pixel| {
+        let faults = [
+            places.acne[pixel],
+            marked(&places.detachment, pixel),
+            marked(&places.leak, pixel),
+            places.false_shadow[pixel],
+            places.false_light[pixel],
+        ];
+        faults.iter().position(|fault| *fault)
+    })
+}
+
+/// Truth in dim greys, with the faults in colours.
+fn faults(row: &Row, truth: &Truth) -> Vec<Vec3> {
+    let pixel = |(pixel, fault): (usize, Option<usize>)| {
+        let lit = 0.08 + 0.3 * (1.0 - truth.shadow[pixel].clamp(0.0, 1.0));
+        let plain = Vec3::splat(if truth.judged[pixel] { lit } else { 0.4 * lit });
+        fault.map_or(plain, |fault| FAULTS[fault].2)
+    };
+    kinds(&row.score.places).enumerate().map(pixel).collect()
+}

@@ -1,0 +1,89 @@
+//! How far a recipe's filter looks, and the same recipe without its biases: what judging a picture wants to know.
+
+use crate::values::{DepthName, Values};
+use crate::{PresetName, Recipe};
+use umbrage_plane::glam::Vec2;
+use umbrage_plane::{Bias, Receiver, View};
+use umbrage_shadow::williams::Lookup;
+use umbrage_shadow::{Biased, MapRadius, Softness};
+
+/// From where a filter looks to the sample of the texel that it meets there, at most.
+const TO_SAMPLE: f32 = 0.5;
+
+impl Recipe {
+    /// The same recipe with all its biases set to zero: the bias, or the two of a range, and the base and the slope of a bias cone.
+    /// `None` where it has none, so that it would stay as it is.
+    ///
+    /// What a tangent plane allows for rounding (`slack`) and what `auto` allows for a sample's width are no biases.
+    ///
+    /// ```
+    /// use umbrage_recipe::Recipe;
+    ///
+    /// let recipe: Recipe = "reeves87,samples=32,bias=0.3..0.4".parse()?;
+    /// assert_eq!(recipe.unbiased().map(|recipe| recipe.to_string()), Some("reeves87,samples=32,bias=0".into()));
+    /// assert_eq!(Recipe::default().unbiased(), None);
+    /// # Ok::<(), umbrage_recipe::RecipeError>(())
+    /// ```
+    #[must_use]
+    pub fn unbiased(&self) -> Option<Self> {
+        let has_cone = self.values.depth == DepthName::Cone;
+        let slope = if has_cone { 0.0 } else { self.values.slope };
+        let without = Values { biased: Biased::constant(Bias::ZERO), slope, ..self.values };
+        let zero =
+            |bias: Bias| matches!(bias, Bias::World(b) | Bias::Texels(b) | Bias::Steps(b) | Bias::Map(b) if b == 0.0);
+        let Biased { low, high, .. } = self.values.biased;
+        let is_biased = !zero(low) || !zero(high) || (has_cone && self.values.slope != 0.0);
+        is_biased.then_some(Self { values: without, ..*self })
+    }
+
+    /// Half-extents of the box about a receiver's place in the map, texels, within which lies everything that the filter looks at for it,
+    /// the samples of the texels included. A soft filter looks as far as its search goes, however narrow the blur that it then chooses.
+    ///
+    /// At least half a texel; at most a quarter of the map, as every filter's regions are, and half a texel.
+    #[must_use]
+    pub fn reach(&self, view: &View, receiver: &Receiver) -> Vec2 {
+        let about = receiver.texel.as_vec2();
+        let most = view.size().as_vec2() * 0.25;
+        let scaled = |factor: f32, least: f32| {
+            let region = receiver.footprint.scaled(about, factor, least, most);
+            region.half + (region.centre - about).abs()
+        };
+        let values = &self.values;
+        let half = match self.preset {
+            PresetName::Auto => scaled(1.0, 0.0),
+            PresetName::Williams78 => {
+                // The centres of the nearest four texels are within a texel.
+                let interpolated = if values.lookup == Lookup::Nearest { 0.0 } else { TO_SAMPLE };
+                Vec2::splat(interpolated + 0.5 * values.dither.amplitude)
+            }
+            PresetName::Ordinary => scaled(values.res_factor, 0.0),
+            PresetName::Burley | PresetName::Fernando => {
+                scaled(1.0, 0.0).max(widest(values.softness(), view, receiver)).min(most)
+            }
+            _ => scaled(values.res_factor, values.min_size),
+        };
+        half + TO_SAMPLE
+    }
+}
+
+/// The largest radius of a soft filter's search, texels.
+fn widest(softness: Softness, view: &View, receiver: &Receiver) -> Vec2 {
+    match softness {
+        Softness::Between { min, max } => texels(min, view, receiver).max(texels(max, view, receiver)),
+        Softness::Light { radius, nearest } => {
+            let zeta = -receiver.eye.z as f32;
+            let near = view.near() as f32;
+            let (nearest, scale) =
+                if view.is_perspective() { (nearest.max(near), 1.0 / nearest.max(near)) } else { (near, 1.0) };
+            Vec2::splat(radius * (zeta - nearest).max(0.0) * scale) / receiver.texel_world
+        }
+    }
+}
+
+fn texels(radius: MapRadius, view: &View, receiver: &Receiver) -> Vec2 {
+    match radius {
+        MapRadius::Texels(radius) => Vec2::splat(radius),
+        MapRadius::Fraction(share) => view.size().as_vec2() * share,
+        MapRadius::World(radius) => Vec2::splat(radius) / receiver.texel_world,
+    }
+}
