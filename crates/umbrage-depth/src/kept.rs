@@ -1,4 +1,6 @@
-use crate::{Bbox, DeepMap, DepthMap, FacetMap, Facets, MomentMap, Raw, Stored, Tiled, Translucent, rows};
+use crate::{
+    Bbox, DeepMap, DepthMap, FacetMap, Facets, MomentMap, MomentSource, Raw, Stored, Tiled, Translucent, rows,
+};
 use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use std::str::FromStr;
@@ -196,8 +198,8 @@ impl DepthMap for Map {
     }
 
     #[inline(always)]
-    fn moments(&self) -> Option<&MomentMap> {
-        if let Self::Moments(map) = self { Some(map) } else { None }
+    fn moments(&self) -> Option<&dyn MomentSource> {
+        if let Self::Moments(map) = self { Some(map.as_ref()) } else { None }
     }
 
     fn stored(&self) -> Stored {

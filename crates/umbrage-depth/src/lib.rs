@@ -82,7 +82,7 @@ pub use hit::Hit;
 pub use kept::{Map, Storage, StorageError};
 pub use map::DepthMap;
 pub use midpoint::{Midpoint, MidpointCell, MidpointRow, SameSurface};
-pub use moments::{MomentMap, Moments};
+pub use moments::{MomentMap, MomentSource, Moments};
 pub use quantise::{quantise, quantum};
 pub use raw::{MapError, Raw};
 pub use rule::{DepthRule, ROW, RUN, Reduction, Row};

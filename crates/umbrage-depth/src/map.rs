@@ -1,4 +1,4 @@
-use crate::{Facets, MomentMap, Stored, Translucent};
+use crate::{Facets, MomentSource, Stored, Translucent};
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::IVec2;
 use std::sync::Arc;
@@ -53,7 +53,7 @@ pub trait DepthMap: Send + Sync {
 
     /// Moments of the map's depths; `None` where it knows the depths alone.
     #[inline(always)]
-    fn moments(&self) -> Option<&MomentMap> {
+    fn moments(&self) -> Option<&dyn MomentSource> {
         None
     }
 
@@ -106,7 +106,7 @@ macro_rules! forward {
             }
 
             #[inline(always)]
-            fn moments(&self) -> Option<&MomentMap> {
+            fn moments(&self) -> Option<&dyn MomentSource> {
                 (**self).moments()
             }
 

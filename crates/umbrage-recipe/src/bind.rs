@@ -69,7 +69,7 @@ impl Values {
             }
             PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
                 let filter = self.moments.filter.with_bias(self.biased.low);
-                over(filter, maps.into_iter().map(|map| self.with_moments(preset, map)).collect())
+                over(filter, maps.into_iter().map(|map| self.moments.over(preset, map)).collect())
             }
         }
     }

@@ -167,7 +167,7 @@ impl Recipe {
                 let view = fitted(*view)?;
                 let (map, stats) = self.bake_counted(&view, (0..moments).map(|moment| casters(&view, moment)));
                 made.stats += stats;
-                maps.push(made.kept(self.values.with_moments(self.preset, map)));
+                maps.push(made.kept(self.values.moments.over(self.preset, map)));
             }
             return Ok(made.finish(self.values.bind(self.preset, maps)?));
         }

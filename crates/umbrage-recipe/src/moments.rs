@@ -1,7 +1,6 @@
 //! Recipes that filter the map before it is asked: which moments they keep, and what asks them.
 
 use crate::PresetName;
-use crate::values::Values;
 use umbrage_depth::{DepthMap, Map, MomentMap, Moments};
 use umbrage_shadow::{FromMoments, presets};
 
@@ -33,12 +32,10 @@ impl MomentValues {
         };
         Self { exponent, negative, prefilter: 1.0, filter }
     }
-}
 
-impl Values {
     /// Which moments a preset keeps; `None` for one that compares depths.
-    fn kept_moments(&self, preset: PresetName) -> Option<Moments> {
-        let MomentValues { exponent, negative, .. } = self.moments;
+    fn kept(&self, preset: PresetName) -> Option<Moments> {
+        let Self { exponent, negative, .. } = *self;
         match preset {
             PresetName::Vsm => Some(Moments::Variance),
             PresetName::Esm => Some(Moments::Exponential { sharpness: exponent }),
@@ -49,18 +46,19 @@ impl Values {
         }
     }
 
-    /// A map as a preset asks it: with moments, where it wants some and the map is without. Deep maps stay as they are: what light passes them is asked texel by texel.
-    pub fn with_moments(&self, preset: PresetName, map: Map) -> Map {
-        match self.kept_moments(preset) {
+    /// A map as a preset asks it: with moments, where it wants some and the map is without. Deep maps stay as they are: what light passes them is asked
+    /// texel by texel.
+    pub fn over(&self, preset: PresetName, map: Map) -> Map {
+        match self.kept(preset) {
             Some(kind) if map.moments().is_none() && map.translucent().is_none() => {
-                MomentMap::of(&map, kind, self.moments.prefilter).into()
+                MomentMap::of(&map, kind, self.prefilter).into()
             }
             _ => map,
         }
     }
 
     /// Texels to each side of a place on which its moments depend, at least.
-    pub fn moments_reach(&self) -> f32 {
-        1.0 + (3.0 * self.moments.prefilter).ceil()
+    pub fn reach(&self) -> f32 {
+        1.0 + (3.0 * self.prefilter).ceil()
     }
 }

@@ -102,7 +102,7 @@ impl Recipe {
             PresetName::Auto | PresetName::Williams78 | PresetName::Ordinary => 0.0,
             PresetName::Burley | PresetName::Fernando => 0.5,
             PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
-                self.values.moments_reach()
+                self.values.moments.reach()
             }
             _ => self.values.min_size,
         }

@@ -194,7 +194,7 @@ fn lists_are_complete() {
     let scenes = good(&["scenes"]).out;
     assert!(scenes.lines().any(|line| line == "gallery:spot-room") && scenes.lines().count() > 50);
     let recipes = good(&["recipes"]).out;
-    assert!(recipes.starts_with("auto ") && recipes.lines().count() == 9, "{recipes}");
+    assert!(recipes.starts_with("auto ") && recipes.lines().count() == 14, "{recipes}");
     let woo = good(&["recipes", "woo92"]).out;
     assert!(woo.contains("samples= [16]: a whole number from 1 to 65536"), "{woo}");
     let json: serde_json::Value = serde_json::from_str(&good(&["recipes", "--json"]).out).expect("JSON");

@@ -2,8 +2,10 @@
 
 mod kind;
 mod pyramid;
+mod source;
 
 pub use kind::Moments;
+pub use source::MomentSource;
 
 use crate::{DepthMap, Raw, Stored, rows};
 use fearless_simd::{Simd, f32x16};
@@ -19,7 +21,7 @@ use umbrage_plane::{TexelRect, View};
 ///
 /// ```
 /// use glam::{DVec3, UVec2, Vec2};
-/// use umbrage_depth::{MomentMap, Moments, Raw};
+/// use umbrage_depth::{MomentMap, MomentSource, Moments, Raw};
 /// use umbrage_plane::View;
 ///
 /// let lamp = View::orthographic(DVec3::Y, DVec3::ZERO, DVec3::X, 1.0, 0.0, 9.0, UVec2::new(2, 2))?;
@@ -58,11 +60,6 @@ impl MomentMap {
         Self { depths, kind, prefilter, nearest, span, levels }
     }
 
-    /// Which moments it keeps, with the exponents that they were made with.
-    pub fn kind(&self) -> Moments {
-        self.kind
-    }
-
     /// Standard deviation of the blur, texels.
     pub fn prefilter(&self) -> f32 {
         self.prefilter
@@ -73,27 +70,23 @@ impl MomentMap {
         self.depths.depths()
     }
 
-    /// A depth as its moments have it. The nearest depth of the map is 0 and the farthest 8/9; texels without a surface count as 1, and so does
-    /// every receiver behind the farthest depth by an eighth of the range or more. So a receiver behind all that is stored is behind it here too, and
-    /// nothing is behind where no surface is. Renderers fit the range of their depths likewise.
-    ///
-    /// Depths before the nearest are 0. The range counts as at least 2⁻¹⁶ of the larger of its ends, so that roundings stay
-    /// small in a map of one depth. NaN stays NaN; in a map without a surface every finite depth is 0.
-    #[inline(always)]
-    pub fn scaled(&self, depth: f32) -> f64 {
-        ((f64::from(depth) - self.nearest) / self.span).clamp(0.0, 1.0)
-    }
-
     /// Number of levels, the finest included: the last is a single texel.
     pub fn levels(&self) -> usize {
         self.levels.len()
     }
+}
 
-    /// The moments at a place of the map, in texels of its finest level. A level of 0 is the finest, the next has texels twice as wide. What lies
-    /// between texel centres and between levels is interpolated linearly; places outside the map have what lies on its edge. Levels that do not exist count
-    /// as the nearest that does, and NaN as 0, in a place too. Channels beyond [`Moments::channels`] are 0.
-    #[must_use]
-    pub fn at(&self, texel: Vec2, level: f32) -> [f64; 4] {
+impl MomentSource for MomentMap {
+    fn kind(&self) -> Moments {
+        self.kind
+    }
+
+    #[inline(always)]
+    fn scaled(&self, depth: f32) -> f64 {
+        ((f64::from(depth) - self.nearest) / self.span).clamp(0.0, 1.0)
+    }
+
+    fn at(&self, texel: Vec2, level: f32) -> [f64; 4] {
         let last = self.levels.len() - 1;
         let level = f64::from(level).max(0.0).min(last as f64);
         let fine = level as usize;
@@ -141,7 +134,7 @@ impl DepthMap for MomentMap {
     }
 
     #[inline(always)]
-    fn moments(&self) -> Option<&MomentMap> {
+    fn moments(&self) -> Option<&dyn MomentSource> {
         Some(self)
     }
 

@@ -1,7 +1,7 @@
 //! Maps of moments: what they keep, exactly and within the roundings of 32 bits.
 
 use glam::{DVec3, UVec2, Vec2};
-use umbrage_depth::{DeepMap, DepthMap, Map, MomentMap, Moments, Raw, Step, Storage, Stored};
+use umbrage_depth::{DeepMap, DepthMap, Map, MomentMap, MomentSource, Moments, Raw, Step, Storage, Stored};
 use umbrage_plane::{View, mix32};
 
 const KINDS: [Moments; 5] = [Moments::Variance, Moments::ESM, Moments::EVSM2, Moments::EVSM4, Moments::Four];

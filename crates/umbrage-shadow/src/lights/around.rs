@@ -6,7 +6,7 @@ use crate::{Explanation, Filter, Probe, Query};
 use fearless_simd::Simd;
 use glam::{DVec2, DVec3, IVec2, Vec3};
 use std::borrow::Cow;
-use umbrage_depth::{DepthMap, FacetSample, FacetSource, Facets, MomentMap, Step, Translucent};
+use umbrage_depth::{DepthMap, FacetSample, FacetSource, Facets, MomentSource, Step, Translucent};
 use umbrage_plane::{DepthRange, Kind, Place, SurfacePoint, TexelRect, View, vectorized};
 use umbrage_sample::Key;
 
@@ -269,7 +269,7 @@ impl<M: DepthMap> DepthMap for Face<'_, M> {
     }
 
     /// Those of the own view's map, which end at its edge.
-    fn moments(&self) -> Option<&MomentMap> {
+    fn moments(&self) -> Option<&dyn MomentSource> {
         self.maps[self.own].moments()
     }
 

@@ -1,6 +1,6 @@
 //! Shadows from moments of depths: variance, exponential and moment shadow maps.
 //!
-//! A [`MomentMap`] keeps means of functions of its depths over regions of all sizes. How much of a region lies before a receiver does not follow from
+//! A [`MomentMap`](umbrage_depth::MomentMap) keeps means of functions of its depths over regions of all sizes. How much of a region lies before a receiver does not follow from
 //! them, but how much at least, or at most: each method is an inequality, and these are its functions. [`FromMoments`] chooses by what
 //! the map keeps.
 //!
@@ -19,7 +19,7 @@ use super::williams::{four, lerp};
 use crate::{Filter, Probe, Query};
 use fearless_simd::Simd;
 use glam::Vec2;
-use umbrage_depth::{DepthMap, MomentMap, Moments};
+use umbrage_depth::{DepthMap, MomentSource, Moments};
 use umbrage_plane::{Bias, Place};
 
 /// Shares below this are roundings of 32-bit moments.
@@ -93,7 +93,7 @@ impl Filter for FromMoments {
 impl FromMoments {
     /// The fraction in shadow by the moments at a place and a level. Apart from what is compiled for every map and machine.
     #[inline(never)]
-    fn over(&self, map: &MomentMap, at: Vec2, level: f32, compared: f32) -> f32 {
+    fn over(&self, map: &dyn MomentSource, at: Vec2, level: f32, compared: f32) -> f32 {
         let depth = map.scaled(compared);
         if depth.is_nan() || depth <= 0.0 {
             return 0.0;
