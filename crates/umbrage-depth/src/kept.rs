@@ -1,4 +1,4 @@
-use crate::{Bbox, DeepMap, DepthMap, FacetMap, Facets, Raw, Stored, Tiled, Translucent, rows};
+use crate::{Bbox, DeepMap, DepthMap, FacetMap, Facets, MomentMap, Raw, Stored, Tiled, Translucent, rows};
 use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use std::str::FromStr;
@@ -52,6 +52,8 @@ pub enum Map {
     Facets(Arc<FacetMap>),
     /// Several surfaces per texel, each letting light through.
     Deep(Arc<DeepMap>),
+    /// Every texel, and moments of the depths.
+    Moments(Arc<MomentMap>),
 }
 
 /// The same expression over whichever map it is.
@@ -63,16 +65,17 @@ macro_rules! each {
             Map::Tiled($map) => $answer,
             Map::Facets($map) => $answer,
             Map::Deep($map) => $answer,
+            Map::Moments($map) => $answer,
         }
     };
 }
 
 impl Map {
-    /// The same map in another storage; a deep one and one of facets stay as they are. Nothing is copied where it is kept so already.
+    /// The same map in another storage; a deep one, one of facets and one of moments stay as they are. Nothing is copied where it is kept so already.
     #[must_use]
     pub fn kept(self, storage: Storage) -> Self {
         match (storage, self) {
-            (_, kept @ (Self::Deep(_) | Self::Facets(_)))
+            (_, kept @ (Self::Deep(_) | Self::Facets(_) | Self::Moments(_)))
             | (Storage::Raw, kept @ Self::Raw(_))
             | (Storage::Bbox, kept @ Self::Bbox(_))
             | (Storage::Tiled, kept @ Self::Tiled(_)) => kept,
@@ -111,6 +114,7 @@ from!(Bbox, Bbox);
 from!(Tiled, Tiled);
 from!(FacetMap, Facets);
 from!(DeepMap, Deep);
+from!(MomentMap, Moments);
 
 /// Conversions between storages: all of a map's depths, kept otherwise.
 macro_rules! convert {
@@ -168,6 +172,7 @@ impl DepthMap for Map {
         let (depths, rect) = match self {
             Self::Raw(map) => (map.depths(), TexelRect::of_size(map.view().size())),
             Self::Bbox(map) => (map.depths(), map.finite()),
+            Self::Moments(map) => (map.depths(), TexelRect::of_size(map.view().size())),
             Self::Tiled(map) => return map.look(simd, within, x, y),
             Self::Facets(map) => return one_by_one(simd, map.as_ref(), x, y),
             Self::Deep(map) => return one_by_one(simd, map.as_ref(), x, y),
@@ -188,6 +193,11 @@ impl DepthMap for Map {
     #[inline(always)]
     fn facets(&self) -> Option<Facets<'_>> {
         if let Self::Facets(map) = self { Some(Facets::Map(map)) } else { None }
+    }
+
+    #[inline(always)]
+    fn moments(&self) -> Option<&MomentMap> {
+        if let Self::Moments(map) = self { Some(map) } else { None }
     }
 
     fn stored(&self) -> Stored {

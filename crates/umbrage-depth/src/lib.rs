@@ -19,6 +19,7 @@
 //! | [`Tiled`] | 32×32 tiles that hold a surface, with their nearest and farthest depth |
 //! | [`FacetMap`] | which facet each texel sees, and the facets' planes; where asked, finer where one plane does not do |
 //! | [`DeepMap`] | several surfaces per texel, each letting part of the light through |
+//! | [`MomentMap`] | every texel, and means of functions of the depths over regions of any size |
 //!
 //! [`Map`] is any of them, shared: the one type that the code above a filter knows. A [`Translucent`] is what a deep map lets through.
 //!
@@ -54,6 +55,7 @@ mod hit;
 mod kept;
 mod map;
 mod midpoint;
+mod moments;
 mod no_surface;
 mod quantise;
 mod raw;
@@ -80,6 +82,7 @@ pub use hit::Hit;
 pub use kept::{Map, Storage, StorageError};
 pub use map::DepthMap;
 pub use midpoint::{Midpoint, MidpointCell, MidpointRow, SameSurface};
+pub use moments::{MomentMap, Moments};
 pub use quantise::{quantise, quantum};
 pub use raw::{MapError, Raw};
 pub use rule::{DepthRule, ROW, RUN, Reduction, Row};

@@ -1,4 +1,4 @@
-use crate::{Facets, Stored, Translucent};
+use crate::{Facets, MomentMap, Stored, Translucent};
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::IVec2;
 use std::sync::Arc;
@@ -51,6 +51,12 @@ pub trait DepthMap: Send + Sync {
         None
     }
 
+    /// Moments of the map's depths; `None` where it knows the depths alone.
+    #[inline(always)]
+    fn moments(&self) -> Option<&MomentMap> {
+        None
+    }
+
     /// Which surface the depths belong to.
     #[inline(always)]
     fn stored(&self) -> Stored {
@@ -97,6 +103,11 @@ macro_rules! forward {
             #[inline(always)]
             fn facets(&self) -> Option<Facets<'_>> {
                 (**self).facets()
+            }
+
+            #[inline(always)]
+            fn moments(&self) -> Option<&MomentMap> {
+                (**self).moments()
             }
 
             fn stored(&self) -> Stored {

@@ -37,7 +37,7 @@ pub struct Maps {
 
 /// A file of maps as bytes; the same bytes for the same maps. Each is a part named after it, or, as in
 /// [`encode_facet_map`](crate::encode_facet_map), two where it holds facets: that of the facets is named `NAME.facets`, in a file of one map
-/// `facets`.
+/// `facets`. Of a map of moments the depths alone are written, from which they can be made again.
 ///
 /// The parts of an EXR file share a display window: it is as large as the largest map, and smaller ones are in its upper left.
 ///
@@ -60,6 +60,7 @@ pub fn encode_maps(maps: &[NamedMap]) -> Result<Vec<u8>, Fault> {
             Map::Raw(map) => parts.push(part(map, about)?),
             Map::Bbox(map) => parts.push(part(map, about)?),
             Map::Tiled(map) => parts.push(part(map, about)?),
+            Map::Moments(map) => parts.push(part(map, about)?),
         }
     }
     encode_parts(&parts)

@@ -2,6 +2,7 @@
 
 mod deep;
 mod facets;
+mod moments;
 mod quantise;
 mod rules;
 mod storages;

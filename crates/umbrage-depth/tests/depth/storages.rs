@@ -3,7 +3,7 @@
 use fearless_simd::{Level, Simd, dispatch, f32x16, prelude::*};
 use glam::{DVec3, IVec2, UVec2};
 use proptest::prelude::*;
-use umbrage_depth::{Bbox, DepthMap, MapError, Raw, TILE, Tile, Tiled};
+use umbrage_depth::{Bbox, DepthMap, MapError, MomentMap, Moments, Raw, TILE, Tile, Tiled};
 use umbrage_plane::{DepthRange, TexelRect, View, mix32};
 
 /// The one list: every storage of a map, made directly and by way of each other storage.
@@ -18,6 +18,7 @@ macro_rules! every_storage {
         $law("bbox from tiled", &Bbox::from(&tiled) $(, $more)*);
         $law("tiled", &tiled $(, $more)*);
         $law("tiled from bbox", &Tiled::from(&bbox) $(, $more)*);
+        $law("moments of tiled", &MomentMap::of(&tiled, Moments::Four, 1.0) $(, $more)*);
     };
 }
 

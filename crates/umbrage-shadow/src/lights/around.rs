@@ -6,7 +6,7 @@ use crate::{Filter, Probe, Query};
 use fearless_simd::Simd;
 use glam::{DVec2, DVec3, IVec2, Vec3};
 use std::borrow::Cow;
-use umbrage_depth::{DepthMap, FacetSample, FacetSource, Facets, Step, Translucent};
+use umbrage_depth::{DepthMap, FacetSample, FacetSource, Facets, MomentMap, Step, Translucent};
 use umbrage_plane::{DepthRange, Kind, Place, SurfacePoint, TexelRect, View, vectorized};
 use umbrage_sample::Key;
 
@@ -244,6 +244,11 @@ impl<M: DepthMap> DepthMap for Face<'_, M> {
     /// Where the own view's map has some.
     fn facets(&self) -> Option<Facets<'_>> {
         self.maps[self.own].facets().map(|_| Facets::Several(self))
+    }
+
+    /// Those of the own view's map, which end at its edge.
+    fn moments(&self) -> Option<&MomentMap> {
+        self.maps[self.own].moments()
     }
 
     #[inline(always)]
