@@ -41,8 +41,8 @@ mod surfaces;
 pub use depths::{AnyDepth, BiasCone, Biased, OnPlane, Radius, ReceiverDepth, Spread};
 pub use fearless_simd::Simd;
 pub use filters::{
-    Conditional, DualPlane, FilteredDepth, IntegerFirst, MapRadius, OccluderFalloff, Opacity, Pcf, Soft, Softness,
-    VirtualWhen, Williams, integer_first, williams,
+    Conditional, DualPlane, FilteredDepth, FromMoments, IntegerFirst, MapRadius, OccluderFalloff, Opacity, Pcf, Soft,
+    Softness, VirtualWhen, Williams, integer_first, moments, williams,
 };
 pub use lights::{
     Around, AroundError, Bounded, Evaluate, LatLong, LatLongError, Mean, Shadow, ShadowMap, Tags, Through, Unshadowed,

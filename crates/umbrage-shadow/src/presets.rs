@@ -18,7 +18,7 @@
 //! ```
 
 use crate::williams::Williams;
-use crate::{Biased, Conditional, DualPlane, Filter, OccluderFalloff, Pcf, ShadowMap, Soft};
+use crate::{Biased, Conditional, DualPlane, Filter, FromMoments, OccluderFalloff, Pcf, ShadowMap, Soft};
 use umbrage_depth::{DepthMap, Stored};
 use umbrage_plane::Bias;
 use umbrage_sample::{Centre, Density, Disc, Jittered};
@@ -143,4 +143,64 @@ pub fn fernando(bias: Bias) -> Preset<Soft<Biased>> {
     let search = Disc::default().with_density(Density::Uniform);
     let soft = Soft::default().with_search(search).with_falloff(OccluderFalloff::Flat);
     Preset { name: "fernando", filter: soft.with_depth(Biased::constant(bias)), expects: &[Stored::First] }
+}
+
+/// Donnelly & Lauritzen 2006: variance shadow maps, with a fifth of the visibility cut off against light bleeding (Lauritzen 2007, GPU Gems 3, ch. 8).
+///
+/// The map is a [`MomentMap`](umbrage_depth::MomentMap) of [`Moments::Variance`](umbrage_depth::Moments::Variance), as those of the following presets are of
+/// the moments that they name; over a map without moments the four nearest texels are asked. Where a surface lies behind two others at different depths, light
+/// bleeds through by what the nearer ones vary.
+///
+/// ```
+/// use glam::{DVec3, UVec2, Vec3};
+/// use umbrage_depth::{MomentMap, Moments, Raw};
+/// use umbrage_plane::{SurfacePoint, View};
+/// use umbrage_sample::Key;
+/// use umbrage_shadow::{Shadow, presets};
+///
+/// let lamp = View::perspective(DVec3::Y * 10.0, DVec3::ZERO, DVec3::NEG_Z, 1.0, 1.0, 100.0, UVec2::splat(64))?;
+/// let depths = (0..64 * 64).map(|i| if i % 64 < 32 { 5.0 } else { 10.0 }).collect();
+/// let map = MomentMap::of(&Raw::new(lamp, depths)?, Moments::Variance, 2.0);
+/// let shadow = presets::vsm().over(map)?;
+/// let at = |x| shadow.fraction(&SurfacePoint::at(Vec3::new(x, 0.0, 0.0), Vec3::Y), Key::new(0, 0, 0));
+/// // Dark behind the near half, lit beside it, and a soft edge about four texels wide between them.
+/// assert_eq!((at(-3.0), at(3.0)), (1.0, 0.0));
+/// assert!(at(-0.1) > at(0.1) && at(0.1) > 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn vsm() -> Preset<FromMoments> {
+    moments("vsm", FromMoments::default().with_bleeding(0.2))
+}
+
+/// Annen, Mertens, Seidel, Flerackers & Kautz 2008: exponential shadow maps, over [`Moments::ESM`](umbrage_depth::Moments::ESM).
+///
+/// Shadows fade toward their casters: what lies closer behind them than a few parts in the sharpness of the depth range is partly lit.
+pub fn esm() -> Preset<FromMoments> {
+    moments("esm", FromMoments::default().with_bleeding(0.0))
+}
+
+/// Lauritzen & McCool 2008: variance shadow maps of an exponential of the depth, over [`Moments::EVSM2`](umbrage_depth::Moments::EVSM2).
+///
+/// Light bleeds only near the casters, as with [`esm`], and where those vary, as with [`vsm`].
+pub fn evsm2() -> Preset<FromMoments> {
+    moments("evsm2", FromMoments::default().with_bleeding(0.1))
+}
+
+/// The same with a second exponential, the better of both bounds, over [`Moments::EVSM4`](umbrage_depth::Moments::EVSM4).
+///
+/// Tilted planes shadow themselves by the second one, against which stands a bias of one depth step.
+pub fn evsm4() -> Preset<FromMoments> {
+    moments("evsm4", FromMoments::default().with_bleeding(0.1).with_bias(Bias::Steps(1.0)))
+}
+
+/// Peters & Klein 2015: moment shadow maps with four moments, over [`Moments::Four`](umbrage_depth::Moments::Four), with a fiftieth of the visibility cut off.
+///
+/// The sharpest of them: three surfaces over one another are told apart. So it shadows tilted planes nearly as percentage closer filtering
+/// would without a bias, against which stands one of two depth steps, which suits regions of a few texels.
+pub fn msm() -> Preset<FromMoments> {
+    moments("msm", FromMoments::default().with_bleeding(0.02).with_bias(Bias::Steps(2.0)))
+}
+
+fn moments(name: &'static str, filter: FromMoments) -> Preset<FromMoments> {
+    Preset { name, filter, expects: &[Stored::First] }
 }

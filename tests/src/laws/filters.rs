@@ -2,14 +2,15 @@
 
 use super::subject::Subject;
 use crate::outside::{Pcss, Variance};
+use umbrage_depth::{DepthMap, Map, MomentMap, Moments};
 use umbrage_plane::Bias;
 use umbrage_sample::{
     AnyPattern, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Tent, Uniform,
 };
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
 use umbrage_shadow::{
-    AnyDepth, BiasCone, Biased, Conditional, DualPlane, FilteredDepth, IntegerFirst, MapRadius, OnPlane, Opacity, Pcf,
-    Radius, Soft, Softness, VirtualWhen, Williams,
+    AnyDepth, BiasCone, Biased, Conditional, DualPlane, FilteredDepth, FromMoments, IntegerFirst, MapRadius, OnPlane,
+    Opacity, Pcf, Radius, Soft, Softness, VirtualWhen, Williams, presets,
 };
 
 /// Each filter with the parameters that change what it does. Patterns and depths are chosen when the program runs, so that this costs
@@ -56,6 +57,7 @@ pub fn every_filter() -> Vec<Subject> {
             wang(EveryTexel.into()).with_when(VirtualWhen::Always).with_min_size(1.5),
         ),
         Subject::new("two planes without facets", DualPlane::default()),
+        Subject::new("moments without moments", FromMoments::default()),
         Subject::new("burley", burley()),
         Subject::new("burley, rescued", burley().with_rescue(true)),
         Subject::new("burley, radii of several units", burley().with_softness(between).with_radius_gamma(0.5)),
@@ -74,4 +76,20 @@ pub fn thinning() -> Subject {
     let opacity = Opacity::default().with_near(0.9).with_far(0.2).with_fade(20.0).with_gamma(0.7);
     let burley = Soft::default().with_depth(AnyDepth::from(BiasCone::default()));
     Subject::new("burley, faint far away", burley.with_opacity(opacity))
+}
+
+/// The presets over maps of moments. The law that opaque surfaces of a deep map are those of a plain one is not for them: deep maps know each
+/// texel's own surfaces, moments the mean of several.
+pub fn prefiltered() -> Vec<Subject> {
+    fn with(kind: Moments, map: Map) -> Map {
+        let bare = map.moments().is_none() && map.translucent().is_none();
+        if bare { MomentMap::of(&map, kind, 1.0).into() } else { map }
+    }
+    vec![
+        Subject::new("vsm", presets::vsm().filter).through(|map| with(Moments::Variance, map)),
+        Subject::new("esm", presets::esm().filter).through(|map| with(Moments::ESM, map)),
+        Subject::new("evsm2", presets::evsm2().filter).through(|map| with(Moments::EVSM2, map)),
+        Subject::new("evsm4", presets::evsm4().filter).through(|map| with(Moments::EVSM4, map)),
+        Subject::new("msm", presets::msm().filter).through(|map| with(Moments::Four, map)),
+    ]
 }

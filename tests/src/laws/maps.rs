@@ -58,7 +58,8 @@ pub fn receivers(map: &impl DepthMap, count: u32) -> Vec<Receiver> {
 pub fn storages(subject: &Subject) -> Found {
     for tiled in &*MAPS {
         let map = Map::from(tiled);
-        let kept = [Storage::Raw, Storage::Bbox, Storage::Tiled].map(|storage| map.clone().kept(storage));
+        let kept = [Storage::Raw, Storage::Bbox, Storage::Tiled].map(|storage| subject.kept(map.clone().kept(storage)));
+        let map = subject.kept(map);
         for (i, receiver) in receivers(tiled, 2000).iter().enumerate() {
             let key = KEY.region(i as u32);
             let [raw, boxed, tiled] = kept.each_ref().map(|map| subject.of(map, receiver, key));
@@ -70,15 +71,15 @@ pub fn storages(subject: &Subject) -> Found {
 
 /// Whatever the footprint: a point, a line, wider than the map; whatever the slope, edge-on included.
 pub fn bounded(subject: &Subject) -> Found {
-    let map = &MAPS[0];
-    for (i, receiver) in receivers(map, 300).into_iter().enumerate() {
+    let map = subject.kept(Map::from(&MAPS[0]));
+    for (i, receiver) in receivers(&map, 300).into_iter().enumerate() {
         let centre = receiver.footprint.centre;
-        let halves = [Vec2::ZERO, Vec2::new(3.0, 0.0), Vec2::new(0.0, 1e-20), size(map) * 4.0];
+        let halves = [Vec2::ZERO, Vec2::new(3.0, 0.0), Vec2::new(0.0, 1e-20), size(&map) * 4.0];
         for half in halves {
             let edge_on = Receiver { facing: 0.0, slope: f32::INFINITY, normal: DVec3::X, ..receiver };
             for seen in [receiver, edge_on] {
                 let seen = Receiver { footprint: Footprint::boxed(centre, half), ..seen };
-                let found = subject.of(&map.into(), &seen, KEY.region(i as u32));
+                let found = subject.of(&map, &seen, KEY.region(i as u32));
                 check((0.0..=1.0).contains(&found), || format!("{found} for a footprint of {half} to each side"))?;
             }
         }

@@ -20,7 +20,7 @@ mod places;
 mod subject;
 
 pub use culling::culling;
-pub use filters::{every_filter, thinning};
+pub use filters::{every_filter, prefiltered, thinning};
 pub use maps::{baked, receivers};
 pub use subject::{Found, KEY, Subject};
 

@@ -11,32 +11,44 @@ pub struct Subject {
     /// Its name in messages.
     pub name: &'static str,
     filter: Box<dyn Judged>,
+    kept: fn(Map) -> Map,
 }
 
 impl Subject {
     /// A filter under a name.
     pub fn new(name: &'static str, filter: impl Filter + Clone + 'static) -> Self {
-        Self { name, filter: Box::new(filter) }
+        Self { name, filter: Box::new(filter), kept: |map| map }
+    }
+
+    /// The same over maps as `kept` makes them of those that laws ask about. What it has made it must leave alone.
+    #[must_use]
+    pub fn through(self, kept: fn(Map) -> Map) -> Self {
+        Self { kept, ..self }
+    }
+
+    /// A map as the filter is asked over it: what a law asks many times it makes once.
+    pub fn kept(&self, map: Map) -> Map {
+        (self.kept)(map)
     }
 
     /// The filter over a map.
     pub fn over(&self, map: &Map) -> Box<dyn Shadow> {
-        self.filter.over(map.clone())
+        self.filter.over(self.kept(map.clone()))
     }
 
     /// The answers at points, and what was counted.
     pub fn counted(&self, map: &Map, at: &[SurfacePoint], out: &mut [f32]) -> Counters {
-        self.filter.counted(map.clone(), at, out)
+        self.filter.counted(self.kept(map.clone()), at, out)
     }
 
     /// The answer for a receiver that is already in the light's space.
     pub fn of(&self, map: &Map, receiver: &Receiver, key: Key) -> f32 {
-        self.filter.of(map.clone(), receiver, key)
+        self.filter.of(self.kept(map.clone()), receiver, key)
     }
 
     /// The same with no instructions but those that every machine of this kind has.
     pub fn of_baseline(&self, map: &Map, receiver: &Receiver, key: Key) -> f32 {
-        self.filter.of_baseline(map, receiver, key)
+        self.filter.of_baseline(&self.kept(map.clone()), receiver, key)
     }
 }
 

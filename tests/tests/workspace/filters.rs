@@ -16,6 +16,11 @@ fn c_10_b06_11_r87_21_r87_22_every_filter_keeps_every_law() {
     let darkness = ["an empty map is lit and a full one dark", "a veil passes its fraction, in colour too"];
     assert!(darkness.iter().all(|name| laws::EVERY.iter().any(|(law, _)| law == name)));
     laws::hold_but(&laws::thinning(), &darkness).unwrap();
+    let deep = ["opaque surfaces of a deep map are those of a plain one"];
+    assert!(laws::EVERY.iter().any(|(law, _)| deep.contains(law)));
+    for subject in laws::prefiltered() {
+        laws::hold_but(&subject, &deep).unwrap();
+    }
 }
 
 #[test]

@@ -156,7 +156,7 @@ impl Filter for Williams {
 /// The four texels whose centres lie around a texel position, clamped to the map: left and right above, left and right below. Beside
 /// them, how far the position is on the way from the first to the last, on each axis.
 #[inline(always)]
-fn four(view: &View, at: Vec2) -> ([IVec2; 4], Vec2) {
+pub(super) fn four(view: &View, at: Vec2) -> ([IVec2; 4], Vec2) {
     let corner = (at - 0.5).floor();
     let last = view.size().as_ivec2() - 1;
     let texel = |x, y| (corner.as_ivec2() + IVec2::new(x, y)).clamp(IVec2::ZERO, last);
@@ -164,7 +164,7 @@ fn four(view: &View, at: Vec2) -> ([IVec2; 4], Vec2) {
 }
 
 #[inline(always)]
-fn lerp([a, b, c, d]: [f32; 4], fraction: Vec2) -> f32 {
+pub(super) fn lerp([a, b, c, d]: [f32; 4], fraction: Vec2) -> f32 {
     let top = a + (b - a) * fraction.x;
     let bottom = c + (d - c) * fraction.x;
     top + (bottom - top) * fraction.y

@@ -4,6 +4,7 @@
 mod around;
 mod burley;
 mod deep;
+mod moments;
 mod reeves;
 mod tags;
 mod traps;
