@@ -44,6 +44,7 @@ fn filters(criterion: &mut Criterion) {
         ("soft", "burley", 64),
         ("pcf-deep", "reeves87,stored=deep,sub-samples=1", 16),
         ("auto", "auto", 16),
+        ("moments", "msm", 8),
     ];
     for (name, text, samples) in recipes {
         let mut group = criterion.benchmark_group(format!("shadow/{name}"));

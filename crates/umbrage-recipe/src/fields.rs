@@ -3,7 +3,7 @@
 use crate::kind::Value;
 use crate::values::{DepthName, PatternName, Rule, Window};
 use crate::{Field, Kind, PresetName};
-use umbrage_depth::SameSurface;
+use umbrage_depth::{Moments, SameSurface};
 use umbrage_plane::Bias;
 use umbrage_sample::Density;
 use umbrage_shadow::williams::{DitherLaw, Guard, Lookup};
@@ -20,6 +20,11 @@ const STORING: &[PresetName] = &[
     PresetName::Burley,
     PresetName::Fernando,
     PresetName::Ordinary,
+    PresetName::Vsm,
+    PresetName::Esm,
+    PresetName::Evsm2,
+    PresetName::Evsm4,
+    PresetName::Msm,
 ];
 const CLOSER: &[PresetName] = &[PresetName::Reeves87, PresetName::Reeves87Recommended, PresetName::Woo92];
 const SOFT: &[PresetName] = &[PresetName::Burley, PresetName::Fernando];
@@ -49,7 +54,19 @@ const FACTORS: &[PresetName] = &[
 ];
 const CONDITIONAL: &[PresetName] = &[PresetName::WangMolnar94];
 const WILLIAMS: &[PresetName] = &[PresetName::Williams78];
-const SINGLE: &[PresetName] = &[PresetName::Williams78, PresetName::WangMolnar94, PresetName::Ordinary];
+const SINGLE: &[PresetName] = &[
+    PresetName::Williams78,
+    PresetName::WangMolnar94,
+    PresetName::Ordinary,
+    PresetName::Vsm,
+    PresetName::Esm,
+    PresetName::Evsm2,
+    PresetName::Evsm4,
+    PresetName::Msm,
+];
+const MOMENTS: &[PresetName] =
+    &[PresetName::Vsm, PresetName::Esm, PresetName::Evsm2, PresetName::Evsm4, PresetName::Msm];
+const VARIANCE: &[PresetName] = &[PresetName::Vsm, PresetName::Evsm2, PresetName::Evsm4];
 
 /// A field that is one value of the recipe.
 macro_rules! plain {
@@ -579,6 +596,62 @@ pub const FIELDS: &[Field] = &[
         |values| values.dither.depth,
         "full range of a displacement in depth, map units",
         "Williams 1978"
+    ),
+    plain!(
+        "exponent",
+        &[PresetName::Esm],
+        Kind::UpTo(Moments::MOST_SHARPNESS),
+        |values| values.moments.exponent,
+        "sharpness of the exponential of the depth, which is scaled to 0..1",
+        "Annen et al. 2008"
+    ),
+    plain!(
+        "exponent",
+        &[PresetName::Evsm2, PresetName::Evsm4],
+        Kind::UpTo(Moments::MOST_EXPONENT),
+        |values| values.moments.exponent,
+        "exponent of the depth, which is scaled to −1..1",
+        "Lauritzen & McCool 2008"
+    ),
+    plain!(
+        "negative",
+        &[PresetName::Evsm4],
+        Kind::UpTo(Moments::MOST_EXPONENT),
+        |values| values.moments.negative,
+        "exponent of the second, negative exponential",
+        "Lauritzen & McCool 2008"
+    ),
+    plain!(
+        "bleeding",
+        MOMENTS,
+        Kind::BelowOne,
+        |values| values.moments.filter.bleeding,
+        "part of the visibility that is cut off, against light bleeding",
+        "GPU Gems 3, ch. 8"
+    ),
+    plain!(
+        "prefilter",
+        MOMENTS,
+        Kind::UpTo(64.0),
+        |values| values.moments.prefilter,
+        "standard deviation of the blur of the map, texels",
+        ""
+    ),
+    plain!(
+        "least-variance",
+        VARIANCE,
+        SHARE,
+        |values| values.moments.filter.least_variance,
+        "variance that counts at least, in squares of the depth's range",
+        "Donnelly & Lauritzen 2006"
+    ),
+    plain!(
+        "moment-bias",
+        &[PresetName::Msm],
+        Kind::UpTo(0.5),
+        |values| values.moments.filter.moment_bias,
+        "share by which moments are mixed with harmless ones, against roundings",
+        "Peters & Klein 2015"
     ),
     words!(
         "window",

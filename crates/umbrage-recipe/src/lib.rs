@@ -23,6 +23,7 @@ mod field;
 mod fields;
 mod kind;
 mod light;
+mod moments;
 mod preset;
 mod recipe;
 mod rsl;

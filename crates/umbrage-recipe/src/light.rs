@@ -54,7 +54,7 @@ pub struct LightMap {
 /// What a map keeps of its texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Keeps {
-    /// One depth.
+    /// One depth, perhaps with moments of the depths around it.
     Depths,
     /// The facet that is seen.
     Facets,
@@ -167,7 +167,7 @@ impl Recipe {
                 let view = fitted(*view)?;
                 let (map, stats) = self.bake_counted(&view, (0..moments).map(|moment| casters(&view, moment)));
                 made.stats += stats;
-                maps.push(made.kept(map));
+                maps.push(made.kept(self.values.moments.over(self.preset, map)));
             }
             return Ok(made.finish(self.values.bind(self.preset, maps)?));
         }

@@ -24,11 +24,21 @@ pub enum PresetName {
     Fernando,
     /// Depths filtered first: the control of Reeves 1987, §3.
     Ordinary,
+    /// Variance shadow maps (Donnelly & Lauritzen 2006).
+    Vsm,
+    /// Exponential shadow maps (Annen et al. 2008).
+    Esm,
+    /// Exponential variance shadow maps of two channels (Lauritzen & McCool 2008).
+    Evsm2,
+    /// The same of four channels.
+    Evsm4,
+    /// Moment shadow maps (Peters & Klein 2015).
+    Msm,
 }
 
 impl PresetName {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 14] = [
         Self::Auto,
         Self::Williams78,
         Self::Reeves87,
@@ -38,6 +48,11 @@ impl PresetName {
         Self::Burley,
         Self::Fernando,
         Self::Ordinary,
+        Self::Vsm,
+        Self::Esm,
+        Self::Evsm2,
+        Self::Evsm4,
+        Self::Msm,
     ];
 
     /// The word for it in recipes.
@@ -53,6 +68,11 @@ impl PresetName {
             Self::Burley => "burley",
             Self::Fernando => "fernando",
             Self::Ordinary => "ordinary",
+            Self::Vsm => "vsm",
+            Self::Esm => "esm",
+            Self::Evsm2 => "evsm2",
+            Self::Evsm4 => "evsm4",
+            Self::Msm => "msm",
         }
     }
 
@@ -69,6 +89,11 @@ impl PresetName {
             Self::Burley => "soft shadows with the bias cone (Burley 2006)",
             Self::Fernando => "soft shadows with a plain mean and a constant bias (Fernando 2005)",
             Self::Ordinary => "depths filtered before they are compared: how it is not done",
+            Self::Vsm => "variance shadow maps (Donnelly & Lauritzen 2006)",
+            Self::Esm => "exponential shadow maps (Annen et al. 2008)",
+            Self::Evsm2 => "exponential variance shadow maps of two channels (Lauritzen & McCool 2008)",
+            Self::Evsm4 => "the same of four channels",
+            Self::Msm => "moment shadow maps (Peters & Klein 2015)",
         }
     }
 
@@ -91,6 +116,11 @@ impl PresetName {
             Self::WangMolnar94 => presets::wang_molnar94().expects,
             Self::Burley => presets::burley().expects,
             Self::Fernando => presets::fernando(Bias::ZERO).expects,
+            Self::Vsm => presets::vsm().expects,
+            Self::Esm => presets::esm().expects,
+            Self::Evsm2 => presets::evsm2().expects,
+            Self::Evsm4 => presets::evsm4().expects,
+            Self::Msm => presets::msm().expects,
         }
     }
 }

@@ -21,6 +21,7 @@ use umbrage_shadow::Shadow;
 /// | `burley` | first | soft, bias cone |
 /// | `fernando` | first | soft, plain mean, constant bias |
 /// | `ordinary` | first | depths filtered first: the control |
+/// | `vsm`, `esm`, `evsm2`, `evsm4`, `msm` | first, filtered beforehand | inequalities for moments of the depths |
 ///
 /// Units: `t` texels, `w` world units, `s` depth steps, `m` fractions of the range from near to far as screen depth has it, `%` of the map's sides.
 ///
@@ -100,6 +101,9 @@ impl Recipe {
         match self.preset {
             PresetName::Auto | PresetName::Williams78 | PresetName::Ordinary => 0.0,
             PresetName::Burley | PresetName::Fernando => 0.5,
+            PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
+                self.values.moments.reach()
+            }
             _ => self.values.min_size,
         }
     }

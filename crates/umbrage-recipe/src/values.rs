@@ -1,3 +1,4 @@
+use crate::moments::MomentValues;
 use crate::{PresetName, RecipeError};
 use umbrage_bake::{Deep, Refinement};
 use umbrage_depth::{Midpoint, SameSurface, Stored};
@@ -110,6 +111,7 @@ pub struct Values {
     /// Points of a light with a size, where they are given.
     pub maps: Option<u32>,
     pub window: Window,
+    pub moments: MomentValues,
 }
 
 impl Values {
@@ -148,6 +150,10 @@ impl Values {
                 Self { depth: DepthName::Constant, biased, ..parts.soft(&fernando) }
             }
             PresetName::Ordinary => Self { biased: Biased::constant(Bias::ZERO), res_factor: 1.0, ..parts },
+            PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
+                let moments = MomentValues::of(preset);
+                Self { biased: Biased::constant(moments.filter.bias), moments, ..parts }
+            }
         }
     }
 
@@ -193,6 +199,7 @@ impl Values {
             dual: DualPlane::default(),
             maps: None,
             window: Window::Given,
+            moments: MomentValues::of(PresetName::Vsm),
         }
     }
 
@@ -261,6 +268,9 @@ impl Values {
             PresetName::Burley | PresetName::Fernando => self.check_soft(given)?,
             PresetName::Auto => return self.check_auto(),
             PresetName::Williams78 | PresetName::WangMolnar94 | PresetName::Ordinary => return Ok(()),
+            PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
+                return Ok(());
+            }
         }
         self.check_depth()
     }

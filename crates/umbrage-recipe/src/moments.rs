@@ -1,0 +1,63 @@
+//! Recipes that filter the map before it is asked: which moments they keep, and what asks them.
+
+use crate::PresetName;
+use umbrage_depth::{DepthMap, Map, MomentMap, Moments};
+use umbrage_shadow::{FromMoments, presets};
+
+/// What recipes over moments of depths can say, beside the bias.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MomentValues {
+    /// The sharpness of one exponential, or the positive exponent.
+    pub exponent: f32,
+    pub negative: f32,
+    /// Standard deviation of the blur, texels.
+    pub prefilter: f32,
+    pub filter: FromMoments,
+}
+
+impl MomentValues {
+    /// As a preset has them; as `vsm` for one of another family.
+    pub fn of(preset: PresetName) -> Self {
+        let (kind, filter) = match preset {
+            PresetName::Esm => (Moments::ESM, presets::esm().filter),
+            PresetName::Evsm2 => (Moments::EVSM2, presets::evsm2().filter),
+            PresetName::Evsm4 => (Moments::EVSM4, presets::evsm4().filter),
+            PresetName::Msm => (Moments::Four, presets::msm().filter),
+            _ => (Moments::Variance, presets::vsm().filter),
+        };
+        let (exponent, negative) = match kind {
+            Moments::Exponential { sharpness } => (sharpness, 0.0),
+            Moments::ExponentialVariance { positive, negative } => (positive, negative.unwrap_or(0.0)),
+            Moments::Variance | Moments::Four => (0.0, 0.0),
+        };
+        Self { exponent, negative, prefilter: 1.0, filter }
+    }
+
+    /// Which moments a preset keeps; `None` for one that compares depths.
+    fn kept(&self, preset: PresetName) -> Option<Moments> {
+        let Self { exponent, negative, .. } = *self;
+        match preset {
+            PresetName::Vsm => Some(Moments::Variance),
+            PresetName::Esm => Some(Moments::Exponential { sharpness: exponent }),
+            PresetName::Evsm2 => Some(Moments::ExponentialVariance { positive: exponent, negative: None }),
+            PresetName::Evsm4 => Some(Moments::ExponentialVariance { positive: exponent, negative: Some(negative) }),
+            PresetName::Msm => Some(Moments::Four),
+            _ => None,
+        }
+    }
+
+    /// A map as a preset asks it: with moments, where it wants some and the map is without. Deep maps stay as they are: what light passes them is asked texel by texel.
+    pub fn over(&self, preset: PresetName, map: Map) -> Map {
+        match self.kept(preset) {
+            Some(kind) if map.moments().is_none() && map.translucent().is_none() => {
+                MomentMap::of(&map, kind, self.prefilter).into()
+            }
+            _ => map,
+        }
+    }
+
+    /// Texels to each side of a place on which its moments depend, at least.
+    pub fn reach(&self) -> f32 {
+        1.0 + (3.0 * self.prefilter).ceil()
+    }
+}
