@@ -60,6 +60,10 @@ impl Recipe {
             PresetName::Burley | PresetName::Fernando => {
                 scaled(1.0, 0.0).max(widest(values.softness(), view, receiver)).min(most)
             }
+            PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
+                // The coarser of two levels has texels up to twice the footprint's width, of which the next but one still counts.
+                scaled(4.0, values.moments.reach())
+            }
             _ => scaled(values.res_factor, values.min_size),
         };
         half + TO_SAMPLE

@@ -2,7 +2,6 @@
 
 use std::fmt;
 use umbrage_plane::Receiver;
-use umbrage_recipe::Recipe;
 use umbrage_shadow::Explanation;
 
 /// Below and above this truth counts as lit and as dark.
@@ -65,13 +64,6 @@ impl fmt::Display for Fault {
             }
         }
     }
-}
-
-/// The same recipe without a bias; `None` for one that has none.
-pub fn without_bias(recipe: &Recipe) -> Option<Recipe> {
-    let text = recipe.to_string();
-    let found: Recipe = format!("{text},bias=0").parse().ok()?;
-    (found != *recipe).then_some(found)
 }
 
 /// What a fault is named by.

@@ -125,7 +125,7 @@ impl Lit<'_> {
     /// What the same recipe answers without a bias.
     fn without_bias(&self, asked: &Asked) -> anyhow::Result<Option<f32>> {
         if self.unbiased.get().is_none() {
-            let recipe = fault::without_bias(&self.recipe);
+            let recipe = self.recipe.unbiased();
             let made = recipe.map(|recipe| lamp::shadow_of(self.stage, self.lamp, &recipe)).transpose()?;
             let _ = self.unbiased.set(made.map(|made| made.shadow));
         }
