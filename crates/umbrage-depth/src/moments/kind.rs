@@ -1,6 +1,6 @@
 /// Which moments of its depths a [`MomentMap`](crate::MomentMap) keeps, that is, means of functions of them.
 ///
-/// Depths are scaled to 0..=1 as [`MomentMap::scaled`](crate::MomentMap::scaled) says. Exponents are per unit of what they multiply. Those that
+/// Depths are scaled to 0..=1 as [`MomentSource::scaled`](crate::MomentSource::scaled) says. Exponents are per unit of what they multiply. Those that
 /// 32-bit floats cannot hold are lowered to the largest that they can, negative ones and NaN count as 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Moments {
