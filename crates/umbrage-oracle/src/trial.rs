@@ -144,12 +144,12 @@ impl<'a, M: DepthMap> BiasTrial<'a, M> {
         (&self.lit, &self.dark)
     }
 
-    /// What an amount of a bias leaves wrong; 0 where there is no pixel that could be.
+    /// The false shadow and the false light that remain with an amount of one kind of bias; each is 0 if no pixel is judged for it.
     pub fn shares(&self, kind: BiasKind, amount: f64) -> BiasShares {
         self.shares_by(|_| TriedBias::of(kind, amount))
     }
 
-    /// What a bias leaves wrong that may be another for each receiver.
+    /// The same with a bias that may differ from receiver to receiver.
     pub fn shares_by(&self, bias: impl Fn(&Receiver) -> TriedBias + Sync) -> BiasShares {
         let mean = |points: &[SurfacePoint], of: fn([i32; 2]) -> i32| {
             // Whole numbers: a sum that no order of the threads can change.
@@ -163,8 +163,8 @@ impl<'a, M: DepthMap> BiasTrial<'a, M> {
         BiasShares { false_shadow: mean(&self.lit, |[_, dark]| dark), false_light: mean(&self.dark, |[lit, _]| lit) }
     }
 
-    /// Between which amounts there is no more false shadow than `tolerance`, and no more false light than without a bias and `tolerance` beside
-    /// it. Amounts are tried up to `most`, at which an answer may hold beyond it.
+    /// The smallest amount with at most `tolerance` of false shadow, and the largest that adds at most `tolerance` of false light to what there is
+    /// without a bias. Amounts from 0 to `most` are tried; an answer equal to `most` may hold for larger amounts, too.
     pub fn window(&self, kind: BiasKind, tolerance: f64, most: f64) -> BiasWindow {
         let before = self.shares(kind, 0.0).false_light;
         let search =

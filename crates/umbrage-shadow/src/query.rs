@@ -440,21 +440,17 @@ impl Passing<'_> {
     /// Adds what does not pass at each tap, and the taps' weights. Apart from the loop around it, because that is compiled many times.
     #[inline(never)]
     fn add<S: Simd>(&self, taps: &Taps<S>, compared: &[f32; 16], (hits, count): (&mut f32, &mut f32)) {
-        let grey = self.deep.is_grey();
         for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
-            let at = taps.tap(i).at;
             let weight = if self.weighted { taps.weight[i] } else { 1.0 };
-            let ruled = if self.inside { None } else { by_rule(self.view, at) };
-            let passes = || self.deep.transmittance(at.floor().as_ivec2(), compared[i]);
             *count += weight;
-            *hits += weight * ruled.unwrap_or_else(|| 1.0 - self.channel.of(passes(), grey));
+            *hits += weight * self.dark(taps.tap(i).at, compared[i]);
         }
     }
 
     /// What does not pass at one tap.
     fn dark(&self, at: Vec2, compared: f32) -> f32 {
-        let ruled = if self.inside { None } else { by_rule(self.view, at) };
         let passes = || self.deep.transmittance(at.floor().as_ivec2(), compared);
+        let ruled = ruled(self.view, self.inside, at);
         ruled.unwrap_or_else(|| 1.0 - self.channel.of(passes(), self.deep.is_grey()))
     }
 }
@@ -473,7 +469,7 @@ fn by_rules<S: Simd>(view: &View, taps: &Taps<S>, mut nearer: u32) -> u32 {
     nearer
 }
 
-/// The same where taps may lie outside.
+/// The answer of one tap whose place settles it, where not all taps are known to lie inside the map and the cone.
 fn ruled(view: &View, inside: bool, texel: Vec2) -> Option<f32> {
     if inside { None } else { by_rule(view, texel) }
 }

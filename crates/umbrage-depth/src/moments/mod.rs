@@ -65,7 +65,7 @@ impl MomentMap {
         self.prefilter
     }
 
-    /// The depths, row by row from the top; +∞ where there is no surface.
+    /// One depth per texel, row by row from the top; +∞ for a texel without a surface.
     pub fn depths(&self) -> &[f32] {
         self.depths.depths()
     }

@@ -25,7 +25,7 @@ pub(crate) struct Model {
     pub(crate) about: &'static About,
     /// `None` where no public text has them.
     pub(crate) formulas: Option<Formulas>,
-    /// What 1 of its constant setting adds to a depth; `None` where that is no step of depth.
+    /// How much depth one unit of its constant setting adds, at least and at most; `None` where the setting is not counted in steps of depth.
     pub(crate) unit: Option<fn(&Conditions) -> Span>,
 }
 

@@ -10,7 +10,7 @@ use umbrage_recipe::Recipe;
 /// Edges of the result that are farther from truth's than this are no edges of its shadow, pixels. It is also the largest displacement along
 /// each axis that is looked for.
 const NEAR: u32 = 8;
-/// A sharp edge is drawn about this wide, pixels: a truth that is no softer has no penumbra.
+/// Width in pixels of a hard shadow's edge as a picture shows it: a truth whose edges are no wider has no penumbra.
 const SHARP: f64 = 1.5;
 
 /// A shadow image to judge, and what is known of how it was made. All are pictures of the judge's camera, 1 dark.
@@ -60,7 +60,8 @@ pub struct Score {
     pub penumbra_ratio: Option<f64>,
     /// How far the result's shadows are moved as a whole, pixels, +x right and +y down ([`displacement`]).
     pub displacement: Option<DVec2>,
-    /// How far the result's edges lie from truth's, pixels; `mean` is positive where the shadow is too small. `None` where there is no edge near one of truth's.
+    /// Distance of the result's edges from those of truth, pixels; `mean` is positive if the shadow is too small. `None` if no edge lies near an edge of
+    /// truth.
     pub edge_shift: Option<Deviation>,
     /// The faulty pixels.
     pub places: Where,
