@@ -48,7 +48,8 @@ impl FacetSource for FacetMap {
         if let Some((tile, middle, within)) = found
             && let Some(block) = tile.block(within)
         {
-            return self.part(at, block.plane(middle, at - texel * self.fine as i32, self.fine));
+            let place = at - texel * self.fine as i32;
+            return self.part(at, block.plane(middle, (place.y * self.fine as i32 + place.x) as usize, self.fine));
         }
         self.whole(texel, found)
     }
@@ -57,10 +58,11 @@ impl FacetSource for FacetMap {
     #[inline(always)]
     fn each_sample(&self, rect: TexelRect, each: &mut dyn FnMut(TexelRect, &FacetSample) -> bool) {
         let (from, to) = (self.texel_of(rect.min), self.texel_of(rect.max - 1));
-        let whole = TexelRect::of_size(self.depths.view.size());
+        let (whole, fine) = (TexelRect::of_size(self.depths.view.size()), self.fine as i32);
         // A tile is looked up once for all of its texels that follow each other.
         let mut last = (IVec2::MIN, None);
         for y in from.y..=to.y {
+            let (top, bottom) = (rect.min.y.max(y * fine), rect.max.y.min((y + 1) * fine));
             for x in from.x..=to.x {
                 let texel = IVec2::new(x, y);
                 let found = if whole.contains(texel) {
@@ -71,23 +73,23 @@ impl FacetSource for FacetMap {
                 } else {
                     None
                 };
-                let first = texel * self.fine as i32;
-                let part = TexelRect::new(first, first + self.fine as i32).intersect(rect);
+                let (left, right) = (rect.min.x.max(x * fine), rect.max.x.min((x + 1) * fine));
                 let block = found.and_then(|(tile, middle, within)| Some((tile.block(within)?, middle)));
-                // One call for both kinds of texel, so that what is done with a sample is compiled into this loop.
-                let size = if block.is_some() { IVec2::ONE } else { part.max - part.min };
-                let mut at = part.min;
-                while at.y < part.max.y {
-                    let sample = match &block {
-                        Some((block, middle)) => self.part(at, block.plane(*middle, at - first, self.fine)),
-                        None => self.whole(texel, found),
-                    };
-                    if !each(TexelRect::new(at, at + size), &sample) {
+                let Some((block, middle)) = block else {
+                    let part = TexelRect { min: IVec2::new(left, top), max: IVec2::new(right, bottom) };
+                    if !each(part, &self.whole(texel, found)) {
                         return;
                     }
-                    at.x += size.x;
-                    if at.x >= part.max.x {
-                        at = IVec2::new(part.min.x, at.y + size.y);
+                    continue;
+                };
+                for row in top..bottom {
+                    let first = ((row - y * fine) * fine - x * fine) as usize;
+                    for column in left..right {
+                        let at = IVec2::new(column, row);
+                        let plane = block.plane(middle, first.wrapping_add(column as usize), self.fine);
+                        if !each(TexelRect { min: at, max: at + 1 }, &self.part(at, plane)) {
+                            return;
+                        }
                     }
                 }
             }

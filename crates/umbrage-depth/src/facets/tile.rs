@@ -244,11 +244,10 @@ pub(super) struct Block<'a> {
 }
 
 impl Block<'_> {
-    /// The plane of the sample at a place of the block, in a tile whose middle, texels, is `middle`.
+    /// The plane of a sample of the block, counted row by row, in a tile whose middle, texels, is `middle`.
     #[inline(always)]
-    pub fn plane(&self, middle: DVec2, place: IVec2, fine: u32) -> Affine {
-        let (sample, per_block) = (place.y as usize * fine as usize + place.x as usize, (fine * fine) as usize);
-        self.planes.get(self.blocks.samples.get(self.index * per_block + sample), middle)
+    pub fn plane(&self, middle: DVec2, sample: usize, fine: u32) -> Affine {
+        self.planes.get(self.blocks.samples.get(self.index * (fine * fine) as usize + sample), middle)
     }
 
     /// The slots that see their sample's surface, of the link from a place of the block to the right or downward; `None` where it is not kept.

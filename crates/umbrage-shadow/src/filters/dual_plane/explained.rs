@@ -1,7 +1,8 @@
 //! Why a receiver is lit or dark: every place of its region, what the samples around it say, and where the edge runs between them.
 
-use super::asked::{Asked, FAR, Grid};
-use super::voters::Voters;
+use super::asked::{Asked, FAR};
+use super::grid::Grid;
+use super::voters::{Samples, Voters};
 use crate::{Crossing, PlaceJudged, Probe, Vote};
 use glam::{DVec2, IVec2, UVec2};
 use umbrage_depth::{FacetSample, FacetSource};
@@ -39,7 +40,7 @@ fn judged<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, at: DVec2) -> PlaceJudg
 }
 
 fn vote<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, sample: &FacetSample, at: DVec2) -> Vote {
-    let (voters, nothing) = (Voters::of(&asked.compared, &[*sample]), sample.plane.c == f64::INFINITY);
+    let (voters, nothing) = (Voters::of(&asked.compared, &Samples::one(sample)), sample.plane.c == f64::INFINITY);
     let (there, passed) = voters.there(0);
     let world = |key: f64| if nothing { f64::NEG_INFINITY } else { key / asked.per_world };
     Vote {

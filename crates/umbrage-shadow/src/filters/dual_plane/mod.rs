@@ -2,6 +2,8 @@
 
 mod asked;
 mod explained;
+mod fraction;
+mod grid;
 mod parameters;
 mod voters;
 

@@ -1,11 +1,16 @@
 //! What samples say of a receiver, several at a time.
 
+#![expect(clippy::needless_range_loop, reason = "one index names a lane in several arrays")]
+
 use glam::DVec2;
 use umbrage_depth::FacetSample;
 use umbrage_plane::Affine;
 
 /// Samples that are worked on together.
 pub(super) const LANES: usize = 4;
+
+/// What a sample says that does not say the same of all places of the region.
+pub(super) const OPEN: u8 = 1 << 7;
 
 /// A number of each.
 type Lanes = [f64; LANES];
@@ -26,7 +31,43 @@ pub(super) struct Compared {
     pub rounding: f64,
 }
 
-/// What [`LANES`] samples say before a place is named: arrays in place of numbers, of which a compiler makes vector instructions.
+/// One to [`LANES`] samples, number by number: arrays, of which a compiler makes vector instructions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Samples {
+    plane: [Lanes; 3],
+    at: [Lanes; 2],
+    side: Lanes,
+    /// How many they are.
+    pub count: usize,
+}
+
+impl Samples {
+    /// None yet.
+    pub const NONE: Self = Self { plane: [[0.0; LANES]; 3], at: [[0.0; LANES]; 2], side: [0.0; LANES], count: 0 };
+
+    /// The same and one more.
+    ///
+    /// # Panics
+    /// When there are [`LANES`] already.
+    #[inline(always)]
+    pub fn push(&mut self, sample: &FacetSample) {
+        let lane = self.count;
+        (self.plane[0][lane], self.plane[1][lane], self.plane[2][lane]) =
+            (sample.plane.c, sample.plane.dx, sample.plane.dy);
+        (self.at[0][lane], self.at[1][lane], self.side[lane]) = (sample.at.x, sample.at.y, sample.side);
+        self.count = lane + 1;
+    }
+
+    /// One alone.
+    #[inline(always)]
+    pub fn one(sample: &FacetSample) -> Self {
+        let mut samples = Self::NONE;
+        samples.push(sample);
+        samples
+    }
+}
+
+/// What samples say before a place is named.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Voters {
     /// How far the receiver's plane lies behind each sample's, as a key over texels, less what it must pass by: [`Affine`], number by number.
@@ -35,26 +76,32 @@ pub(super) struct Voters {
     there: Lanes,
     /// What it must pass by.
     passed: Lanes,
-    /// Whether it calls all places of the region dark, or all of them lit. Neither is true where it calls some dark and some lit, and where
+    /// A bit for each that calls all places of the region dark, or all of them lit. Neither is set where it calls some dark and some lit, and where
     /// a number is NaN; both never are.
-    all_dark: [bool; LANES],
-    all_lit: [bool; LANES],
+    dark: u8,
+    lit: u8,
+    /// A bit for each sample.
+    all: u8,
+}
+
+/// A bit for each lane.
+#[inline(always)]
+fn bits(lanes: [bool; LANES]) -> u8 {
+    let mut bits = 0;
+    for i in 0..LANES {
+        bits |= u8::from(lanes[i]) << i;
+    }
+    bits
 }
 
 impl Voters {
-    /// Each of one to [`LANES`] samples as if it were alone; the last fills what lanes are left. Nothing, a plane infinitely far, calls
-    /// everything lit.
+    /// Each of some samples as if it were alone. Nothing, a plane infinitely far, calls everything lit.
     #[inline(always)]
-    pub fn of(compared: &Compared, samples: &[FacetSample]) -> Self {
-        let (mut c, mut dx, mut dy) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        let (mut x, mut y, mut side) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        for i in 0..LANES {
-            let sample = &samples[i.min(samples.len() - 1)];
-            (c[i], dx[i], dy[i]) = (sample.plane.c, sample.plane.dx, sample.plane.dy);
-            (x[i], y[i], side[i]) = (sample.at.x, sample.at.y, sample.side);
-        }
+    #[expect(clippy::needless_bitwise_bool, reason = "a lane that skipped a comparison would be no vector's")]
+    pub fn of(compared: &Compared, samples: &Samples) -> Self {
+        let ([mut c, mut dx, mut dy], [x, y], side) = (samples.plane, samples.at, samples.side);
         let (mut there, mut passed) = ([0.0; LANES], [0.0; LANES]);
-        let (mut all_dark, mut all_lit) = ([false; LANES], [false; LANES]);
+        let (mut dark, mut lit) = ([false; LANES], [false; LANES]);
         for i in 0..LANES {
             let gentle = compared.steep.min(dx[i].abs() + dy[i].abs());
             // Planes of refined maps are three floats about the middle of a tile.
@@ -70,17 +117,27 @@ impl Voters {
             let along = |axis: DVec2| (dx[i] * axis.x + dy[i] * axis.y).abs();
             // A little more than the region, so that no rounding decides.
             let spread = (along(axes[0]) + along(axes[1])) * (1.0 + 1e-9);
-            all_dark[i] = there[i] > 0.0 && middle - spread > 0.0;
-            all_lit[i] = there[i] <= 0.0 || middle + spread <= 0.0;
+            dark[i] = (there[i] > 0.0) & (middle - spread > 0.0);
+            lit[i] = (there[i] <= 0.0) | (middle + spread <= 0.0);
         }
-        Self { behind: [c, dx, dy], there, passed, all_dark, all_lit }
+        let all = (1 << samples.count) - 1;
+        Self { behind: [c, dx, dy], there, passed, dark: bits(dark) & all, lit: bits(lit) & all, all }
+    }
+
+    /// What a sample says of all places of the region: 0 lit, 1 dark, or [`OPEN`].
+    #[inline(always)]
+    pub fn says(&self, lane: usize) -> u8 {
+        let (dark, lit) = (self.dark >> lane & 1, self.lit >> lane & 1);
+        if dark == lit { OPEN } else { dark }
     }
 
     /// Whether a sample calls a place of the region dark.
     #[inline(always)]
     pub fn dark(&self, lane: usize, at: DVec2) -> bool {
-        let (dark, lit) = (self.all_dark[lane], self.all_lit[lane]);
-        if dark == lit { self.there[lane] > 0.0 && self.behind(lane).at(at) > 0.0 } else { dark }
+        match self.says(lane) {
+            OPEN => self.there[lane] > 0.0 && self.behind(lane).at(at) > 0.0,
+            says => says == 1,
+        }
     }
 
     /// How far the receiver's plane lies behind a sample's, as a key over texels, less what it must pass by.
@@ -100,32 +157,31 @@ impl Voters {
 /// What samples say of a whole region.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Said {
-    lit: bool,
-    dark: bool,
-    /// One of them calls some places dark and some lit.
-    mixed: bool,
+    lit: u8,
+    dark: u8,
+    /// Some of them call some places dark and some lit.
+    mixed: u8,
 }
 
 impl Said {
     /// Takes what some of them say.
     #[inline(always)]
     pub fn add(&mut self, voters: &Voters) {
-        for (dark, lit) in voters.all_dark.iter().zip(&voters.all_lit) {
-            self.dark |= *dark && !lit;
-            self.lit |= *lit && !dark;
-            self.mixed |= dark == lit;
-        }
+        let (dark, lit) = (voters.dark, voters.lit);
+        self.dark |= dark & !lit;
+        self.lit |= lit & !dark;
+        self.mixed |= !(dark ^ lit) & voters.all;
     }
 
     /// Whether no two disagree so far.
     #[inline(always)]
     pub fn can_agree(self) -> bool {
-        !(self.mixed || self.dark && self.lit)
+        self.mixed == 0 && (self.dark == 0 || self.lit == 0)
     }
 
     /// The answer of all, where there is one.
     #[inline(always)]
     pub fn agreed(self) -> Option<bool> {
-        (self.can_agree() && (self.dark || self.lit)).then_some(self.dark)
+        (self.can_agree() && self.dark | self.lit != 0).then_some(self.dark != 0)
     }
 }

@@ -1,0 +1,94 @@
+//! The fraction of a region that is in shadow, by the least that settles it.
+
+use super::asked::{Asked, FAR};
+use super::grid::Grid;
+use super::voters::{LANES, Said, Samples, Voters};
+use glam::DVec2;
+use umbrage_depth::FacetSource;
+use umbrage_plane::TexelRect;
+
+/// Samples along each side of the region that are kept at hand; larger regions ask the map for each place.
+const AT_HAND: usize = 12;
+
+/// Regions of more texels along a side are not asked whether all of their samples agree.
+const MOST_AGREED: f64 = 16.0;
+
+impl<F: FacetSource + ?Sized> Asked<'_, F> {
+    /// The fraction in shadow, and how many samples were looked at.
+    #[inline(always)]
+    pub fn fraction(&self) -> (f32, u32) {
+        let (centre, axes) = self.compared.part;
+        let reach = axes[0].abs() + axes[1].abs();
+        let fine = f64::from(self.map.fine());
+        let corner = |at: DVec2| (at * fine - 0.5).floor();
+        let (low, high) = (corner(centre - reach), corner(centre + reach) + 2.0);
+        if !(low.abs().max_element() < FAR && high.abs().max_element() < FAR) {
+            return (self.share(false, |_| false), 0);
+        }
+        let rect = TexelRect::new(low.as_ivec2(), high.as_ivec2());
+        let inside = self.view.holds(centre.as_vec2(), reach.as_vec2());
+        if inside && let Some(dark) = self.of_one_plane(rect, reach) {
+            return (f32::from(u8::from(dark)), 1);
+        }
+        let wide = (high - low).max_element();
+        let looked = rect.area().min(4 * (self.across * self.across) as usize) as u32;
+        if wide <= AT_HAND as f64 {
+            let mut grid = Grid::<F, { AT_HAND * AT_HAND }, { AT_HAND * AT_HAND / LANES }>::empty(self, rect);
+            let agreed = grid.fill();
+            if inside && let Some(dark) = agreed {
+                return (f32::from(u8::from(dark)), grid.parts.len() as u32);
+            }
+            return (grid.fraction(inside), looked);
+        }
+        if inside && wide <= MOST_AGREED * fine {
+            let (agreed, looked) = self.agreed(rect);
+            if let Some(dark) = agreed {
+                return (f32::from(u8::from(dark)), looked);
+            }
+        }
+        (self.one_by_one(inside), looked)
+    }
+
+    /// The answer where all samples of a rectangle see one facet, that answers alike for each of them and for all places of the region.
+    #[inline(always)]
+    fn of_one_plane(&self, rect: TexelRect, reach: DVec2) -> Option<bool> {
+        let sample = self.map.one_facet(rect)?;
+        let behind = Voters::of(&self.compared, &Samples::one(&sample)).behind(0);
+        // Wherever the samples of these places were taken, and the region.
+        let side = 1.0 / f64::from(self.map.fine());
+        let low = (rect.min.as_dvec2() * side - 1.0).min(self.compared.part.0 - reach);
+        let high = (rect.max.as_dvec2() * side + 1.0).max(self.compared.part.0 + reach);
+        let middle = behind.at(0.5 * (low + high));
+        let half = 0.5 * (high - low);
+        let spread = (behind.dx.abs() * half.x + behind.dy.abs() * half.y) * (1.0 + 1e-9);
+        let (dark, lit) = (middle - spread > 0.0, middle + spread <= 0.0);
+        (dark != lit).then_some(dark)
+    }
+
+    /// The answer of all samples of a rectangle for all places of the region, where it is one; and how many were looked at.
+    #[inline(never)]
+    fn agreed(&self, rect: TexelRect) -> (Option<bool>, u32) {
+        let (mut samples, mut said, mut looked) = (Samples::NONE, Said::default(), 0);
+        self.map.each_sample(rect, &mut |_, sample| {
+            samples.push(sample);
+            looked += 1;
+            if samples.count == LANES {
+                said.add(&Voters::of(&self.compared, &samples));
+                samples.count = 0;
+            }
+            said.can_agree()
+        });
+        said.add(&Voters::of(&self.compared, &samples));
+        (said.agreed(), looked)
+    }
+
+    /// A large region: the map is asked anew for each place.
+    #[inline(never)]
+    fn one_by_one(&self, inside: bool) -> f32 {
+        self.share(inside, |at| {
+            let corner = (at * f64::from(self.map.fine()) - 0.5).floor().as_ivec2();
+            let mut grid = Grid::<F, 4, 1>::empty(self, TexelRect::new(corner, corner + 2));
+            grid.filled().dark(at)
+        })
+    }
+}
