@@ -1,13 +1,22 @@
 //! The catalogue: every figure, in the order of the gallery.
 
 use crate::figure::Figure;
+use crate::questions::QUESTIONS;
 use crate::{burley, reeves, umbrage, wang_molnar, williams, woo};
+use umbrage_report::Words;
 
 /// Every figure, paper by paper.
 pub fn figures() -> impl Iterator<Item = &'static Figure> {
     let papers =
         [williams::FIGURES, reeves::FIGURES, woo::FIGURES, wang_molnar::FIGURES, burley::FIGURES, umbrage::FIGURES];
     papers.into_iter().flatten().copied()
+}
+
+/// What stands on top of the gallery's page.
+pub fn words() -> Words {
+    let question =
+        |(question, ids): &(&str, &[&str])| ((*question).into(), ids.iter().map(|id| (*id).into()).collect());
+    Words { questions: QUESTIONS.iter().map(question).collect(), ..Words::default() }
 }
 
 /// The figures with these ids, in the order of the catalogue; all for no id.

@@ -43,8 +43,10 @@ pub struct Figure {
     pub paper: Paper,
     /// A few words.
     pub title: &'static str,
-    /// What the figure must show.
+    /// What the figure must show: the paper's claim, in a sentence.
     pub claim: &'static str,
+    /// What to look at, in a sentence that begins with it.
+    pub look: &'static str,
     /// Makes it.
     pub make: fn(&Context) -> anyhow::Result<Made>,
 }
@@ -57,6 +59,7 @@ impl Figure {
             paper: self.paper.name().into(),
             title: self.title.into(),
             claim: self.claim.into(),
+            look: self.look.into(),
         };
         Entry { heading, make: Box::new(|| (self.make)(cx)) }
     }

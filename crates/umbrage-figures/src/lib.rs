@@ -13,6 +13,7 @@ mod run;
 mod stage;
 
 mod burley;
+mod questions;
 mod reeves;
 mod umbrage;
 mod wang_molnar;

@@ -26,6 +26,7 @@ impl Run<'_> {
     pub fn make(&self) -> anyhow::Result<Report> {
         let run = umbrage_report::Run {
             entries: catalogue::figures().map(|figure| figure.entry(&self.context)).collect(),
+            words: catalogue::words(),
             only: self.figures.iter().map(|figure| figure.id.into()).collect(),
             quick: self.context.quick,
             settings: self.context.settings(),

@@ -7,17 +7,18 @@
 //! on the page. [`show`] makes such a page of figures that are there already. This crate knows no paper and no scene.
 //!
 //! ```no_run
-//! use umbrage_report::{Entry, Heading, Made, Measure, Run, Verdict};
+//! use umbrage_report::{Entry, Heading, Made, Measure, Run, Verdict, Words};
 //!
 //! let heading = Heading {
 //!     id: "T-1".into(),
 //!     paper: "Trials".into(),
 //!     title: "A sum".into(),
 //!     claim: "Two and two are four.".into(),
+//!     look: "Look at the sum.".into(),
 //! };
 //! let make = || Ok(Made { measures: vec![Measure::exactly("2 + 2", 2.0 + 2.0, "", 4.0)], ..Made::default() });
 //! let entries = vec![Entry { heading, make: Box::new(make) }];
-//! let run = Run { entries, quick: false, settings: String::new(), threads: None, only: Vec::new(), out: "target/trials".into() };
+//! let run = Run { entries, words: Words::default(), quick: false, settings: String::new(), threads: None, only: Vec::new(), out: "target/trials".into() };
 //! assert_eq!(run.make()?.count(Verdict::Reproduced), 1);
 //! # Ok::<(), anyhow::Error>(())
 //! ```

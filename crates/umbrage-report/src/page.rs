@@ -27,6 +27,9 @@ pub struct Words {
     pub heading: String,
     /// A sentence under it.
     pub lead: String,
+    /// Questions that readers come with, each with the ids of the figures that answer it. Ids that the report does not hold are left out, and
+    /// questions without one.
+    pub questions: Vec<(String, Vec<String>)>,
 }
 
 impl Default for Words {
@@ -37,6 +40,7 @@ impl Default for Words {
             heading: "Shadows from depth maps".into(),
             lead: "The figures of the papers, made again from their algorithms and measured against ray-traced truth."
                 .into(),
+            questions: Vec::new(),
         }
     }
 }
@@ -55,6 +59,7 @@ pub fn html(report: &Report, words: &Words, quick: bool, beside: &Beside) -> Str
                 .into()
         }
         "nav" => nav(report),
+        "questions" => questions(report, &words.questions),
         "summary" => report.figures.iter().map(summary_row).collect(),
         "sections" => sections(report, beside),
         _ => String::new(),
@@ -124,6 +129,21 @@ fn nav(report: &Report) -> String {
     text
 }
 
+/// The questions that figures of the report answer.
+fn questions(report: &Report, questions: &[(String, Vec<String>)]) -> String {
+    let items = joined(questions, |(question, ids)| {
+        let known = report.figures.iter().filter(|figure| ids.contains(&figure.id));
+        let links = joined(known, |figure| {
+            format!("<li><a href=\"#{0}\">{0}</a> {1}</li>", escape(&figure.id), set(&figure.title))
+        });
+        if links.is_empty() { links } else { format!("<dt>{}</dt><dd><ul>{links}</ul></dd>", set(question)) }
+    });
+    if items.is_empty() {
+        return items;
+    }
+    format!("<details id=\"questions\"><summary>Which figure answers my question?</summary><dl>{items}</dl></details>")
+}
+
 fn summary_row(figure: &FigureRecord) -> String {
     const KEY_MEASURES: usize = 2;
     let missed = figure.measures.iter().filter(|measure| measure.pass == Some(false));
@@ -174,10 +194,13 @@ fn sections(report: &Report, beside: &Beside) -> String {
 
 fn article(figure: &FigureRecord, beside: &Beside) -> String {
     let id = escape(&figure.id);
-    let claim = match set(&figure.claim) {
+    let line = |class: &str, label: &str, text: &str| match set(text) {
         none if none.is_empty() => none,
-        claim => format!("<p class=\"claim\"><span>Must show</span> {claim}</p>"),
+        text => format!("<p class=\"{class}\"><span>{label}</span> {text}</p>"),
     };
+    let claim = line("claim", "Must show", &figure.claim)
+        + &line("claim", "Look at", &figure.look)
+        + &line("claim", "Measured", &measured(&figure.measures));
     let mut text = format!(
         "<article id=\"{id}\"><header><p class=\"line\"><a href=\"#{id}\" class=\"id\">{id}</a>{}</p><h3>{}</h3>{claim}</header>\n",
         badge(figure.verdict),
@@ -213,6 +236,23 @@ fn article(figure: &FigureRecord, beside: &Beside) -> String {
         let _ = writeln!(text, "<p class=\"note\">{}</p>", set(&figure.note));
     }
     text + "</article>\n"
+}
+
+/// What was measured, in a sentence: how many bounds are met, and one of the values, of a bound that is not met where there is one.
+fn measured(measures: &[MeasureRecord]) -> String {
+    let judged: Vec<&MeasureRecord> = measures.iter().filter(|measure| measure.pass.is_some()).collect();
+    let Some(one) = judged.iter().find(|measure| measure.pass == Some(false)).or(judged.first()) else {
+        return String::new();
+    };
+    let met = judged.iter().filter(|measure| measure.pass == Some(true)).count();
+    let unit = if one.unit.is_empty() || one.word().is_some() { String::new() } else { format!(" {}", one.unit) };
+    let first = format!("{}: {}{unit} ({})", one.name, one.value_text(), one.bound_text());
+    match (met, judged.len()) {
+        (1, 1) => format!("{first}."),
+        (_, 1) => format!("{first}, which is not met."),
+        (met, all) if met == all => format!("{first}, and {} more, all met.", all - 1),
+        (met, all) => format!("{first}, which is not met; {met} of {all} bounds are."),
+    }
 }
 
 /// The slider between each result and the panel that it is compared with.
@@ -357,8 +397,13 @@ mod tests {
             caveat: Some("1 > 0.5".into()),
             timings: vec![("secret".into(), 12.345)],
         };
-        let heading =
-            Heading { id: "T-1".into(), paper: "Umbrage".into(), title: "<title>".into(), claim: "<claim>".into() };
+        let heading = Heading {
+            id: "T-1".into(),
+            paper: "Umbrage".into(),
+            title: "<title>".into(),
+            claim: "<claim>".into(),
+            look: String::new(),
+        };
         Report { figures: vec![FigureRecord::new(&heading, &made)] }
     }
 
@@ -399,7 +444,13 @@ mod tests {
     }
 
     fn one(measures: Vec<Measure>, claim: &str) -> String {
-        let heading = Heading { id: "T-1".into(), paper: "P".into(), title: "T".into(), claim: claim.into() };
+        let heading = Heading {
+            id: "T-1".into(),
+            paper: "P".into(),
+            title: "T".into(),
+            claim: claim.into(),
+            look: String::new(),
+        };
         let made = Made { measures, ..Made::default() };
         html(&Report { figures: vec![FigureRecord::new(&heading, &made)] }, &Words::default(), true, &Beside::default())
     }
@@ -418,6 +469,33 @@ mod tests {
         let page = one(vec![Measure::yes("falls", false)], "c");
         assert!(page.contains("<td>falls</td><td class=\"number\">no</td><td class=\"bound\">yes</td>"));
         assert!(!page.contains("yes = 1") && !page.contains("= 1<"));
+    }
+
+    #[test]
+    fn what_was_measured_is_a_sentence() {
+        let [good, bad] = [Measure::at_most("m", 0.25, "px", 1.0), Measure::at_most("n", 2.0, "px", 1.0)];
+        let says = |measures: Vec<Measure>| {
+            let page = one(measures, "c");
+            page.split("<span>Measured</span> ").nth(1).map(|rest| rest.split("</p>").next().unwrap().to_owned())
+        };
+        assert_eq!(says(vec![]), None);
+        assert_eq!(says(vec![good.clone()]).unwrap(), "m: 0.25 px (≤ 1).");
+        assert_eq!(says(vec![bad.clone()]).unwrap(), "n: 2 px (≤ 1), which is not met.");
+        assert_eq!(says(vec![good.clone(), good.clone()]).unwrap(), "m: 0.25 px (≤ 1), and 1 more, all met.");
+        assert_eq!(says(vec![good, bad]).unwrap(), "n: 2 px (≤ 1), which is not met; 1 of 2 bounds are.");
+    }
+
+    #[test]
+    fn questions_lead_to_figures_that_the_report_holds() {
+        let question = |question: &str, id: &str| (question.to_string(), vec![id.to_string()]);
+        let words =
+            Words { questions: vec![question("Why <so>?", "T-1"), question("Who?", "T-2")], ..Words::default() };
+        let page = html(&report(), &words, false, &Beside::default());
+        assert!(
+            page.contains("<dt>Why &lt;so&gt;?</dt><dd><ul><li><a href=\"#T-1\">T-1</a> &lt;title&gt;</li></ul></dd>")
+        );
+        assert!(!page.contains("Who?"));
+        assert!(!html(&report(), &Words::default(), false, &Beside::default()).contains("<details id=\"questions\""));
     }
 
     #[test]

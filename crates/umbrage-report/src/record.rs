@@ -20,8 +20,10 @@ pub struct Heading {
     pub paper: String,
     /// A few words.
     pub title: String,
-    /// What it must show.
+    /// What it must show: the paper's claim, in a sentence.
     pub claim: String,
+    /// What to look at, in a sentence; empty where nothing need be said.
+    pub look: String,
 }
 
 /// All figures of a run, in the order of the gallery.
@@ -40,8 +42,11 @@ pub struct FigureRecord {
     pub paper: String,
     /// A few words.
     pub title: String,
-    /// What it must show.
+    /// What it must show: the paper's claim, in a sentence.
     pub claim: String,
+    /// What to look at, in a sentence; absent where nothing need be said.
+    #[serde(skip_serializing_if = "String::is_empty", default)]
+    pub look: String,
     /// Pictures, in order.
     pub panels: Vec<PanelRecord>,
     /// Plots: file stems of the SVG files.
@@ -183,6 +188,7 @@ impl FigureRecord {
             paper: heading.paper.clone(),
             title: heading.title.clone(),
             claim: heading.claim.clone(),
+            look: heading.look.clone(),
             panels: panels.collect(),
             plots: made.plots.iter().map(|(name, _)| file_stem(name)).collect(),
             tables: tables.collect(),
@@ -217,7 +223,7 @@ mod tests {
     use super::*;
 
     fn heading() -> Heading {
-        Heading { id: "T-1".into(), paper: "Umbrage".into(), title: "t".into(), claim: "c".into() }
+        Heading { id: "T-1".into(), paper: "Umbrage".into(), title: "t".into(), claim: "c".into(), look: String::new() }
     }
 
     #[test]

@@ -24,6 +24,8 @@ pub struct Entry<'a> {
 pub struct Run<'a> {
     /// Every figure of the gallery, in its order.
     pub entries: Vec<Entry<'a>>,
+    /// What stands on top of the page.
+    pub words: Words,
     /// The ids of the figures that are made; none makes all. The others stay on the page if the folder holds them.
     pub only: Vec<String>,
     /// Smaller pictures and fewer samples: a figure of which nothing is judged is no fault then.
@@ -95,7 +97,7 @@ impl Run<'_> {
             standing.values().map(|(record, seconds)| (record.id.as_str(), seconds)).collect();
         let report = Report { figures: standing.values().map(|(record, _)| record.clone()).collect() };
         self.write("timings.json", &(serde_json::to_string_pretty(&timings)? + "\n"))?;
-        self.write("index.html", &page::html(&report, &Words::default(), self.quick, &self.beside(&report)?))?;
+        self.write("index.html", &page::html(&report, &self.words, self.quick, &self.beside(&report)?))?;
         self.write("report.json", &report.json()?)
     }
 
@@ -219,11 +221,17 @@ mod tests {
     }
 
     fn run<'a>(make: impl Fn() -> Made + Send + Sync + 'a, out: &Path, threads: usize, seed: u32) -> Run<'a> {
-        let heading =
-            Heading { id: "T-1".into(), paper: "Umbrage".into(), title: "Title".into(), claim: "Claim".into() };
+        let heading = Heading {
+            id: "T-1".into(),
+            paper: "Umbrage".into(),
+            title: "Title".into(),
+            claim: "Claim".into(),
+            look: String::new(),
+        };
         let entries = vec![Entry { heading, make: Box::new(move || Ok(make())) }];
         Run {
             entries,
+            words: Words::default(),
             only: Vec::new(),
             quick: true,
             settings: format!("seed {seed}"),
@@ -282,11 +290,18 @@ mod tests {
 
     fn many<'a>(ids: &[&str], only: &[&str], out: &Path, quick: bool) -> Run<'a> {
         let entry = |id: &&str| {
-            let heading = Heading { id: (*id).into(), paper: "P".into(), title: "T".into(), claim: "C".into() };
+            let heading = Heading {
+                id: (*id).into(),
+                paper: "P".into(),
+                title: "T".into(),
+                claim: "C".into(),
+                look: String::new(),
+            };
             Entry { heading, make: Box::new(|| Ok(result())) }
         };
         Run {
             entries: ids.iter().map(entry).collect(),
+            words: Words::default(),
             only: only.iter().map(ToString::to_string).collect(),
             quick,
             settings: format!("quick {quick}"),

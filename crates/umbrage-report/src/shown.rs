@@ -50,8 +50,14 @@ mod tests {
             measures: vec![Measure::info("m", 0.5, "")],
             ..Made::default()
         };
-        let heading = |id: &str| Heading { id: id.into(), paper: "P".into(), title: "T".into(), claim: String::new() };
-        let words = Words { title: "A & B".into(), heading: "H".into(), lead: "L".into() };
+        let heading = |id: &str| Heading {
+            id: id.into(),
+            paper: "P".into(),
+            title: "T".into(),
+            claim: String::new(),
+            look: String::new(),
+        };
+        let words = Words { title: "A & B".into(), heading: "H".into(), lead: "L".into(), questions: Vec::new() };
         let report = show(&out, &words, &[(heading("a"), made.clone()), (heading("b"), made)]).unwrap();
         assert_eq!(report.figures.len(), 2);
         let page = std::fs::read_to_string(out.join("index.html")).unwrap();

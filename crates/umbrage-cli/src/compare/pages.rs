@@ -43,6 +43,7 @@ pub fn write(
         title: format!("Umbrage: {scene}"),
         heading: format!("Shadows of {scene}"),
         lead: "Each result beside ray-traced truth, and every fault by name.".into(),
+        questions: Vec::new(),
     };
     let report = show(out, &words, &figures)?;
     let panels = report.figures.iter().flat_map(|figure| &figure.panels).map(|panel| out.join(&panel.file));
@@ -55,6 +56,7 @@ fn figure(scene: &str, size: UVec2, truth: &Truth, rows: &[Row], limits: Option<
         paper: scene.into(),
         title: format!("Under {}", truth.light),
         claim: String::new(),
+        look: String::new(),
     };
     let own: Vec<&Row> = rows.iter().filter(|row| row.light == truth.light).collect();
     let mut made = Made::default();

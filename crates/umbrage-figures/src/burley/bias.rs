@@ -28,6 +28,7 @@ pub const I75: Figure = Figure {
     paper: Paper::Burley06,
     title: "A disc and a cone of samples",
     claim: "Even a large constant bias lets a disc pierce the surface; a cone needs none up to the tilt of its side.",
+    look: "the side of the disc that reaches into the surface, and the cone that leans away from it.",
     make: cone,
 };
 

@@ -25,6 +25,7 @@ pub const DEEP: Figure = Figure {
     paper: Paper::Burley06,
     title: "Deep maps under the same filter",
     claim: "Casters that let light through or that move throw partial, coloured and blurred shadows.",
+    look: "the coloured shadow of glass, the grey one of leaves and the blurred one of the ball that moves.",
     make: deep,
 };
 

@@ -17,6 +17,7 @@ pub const I77: Figure = Figure {
     paper: Paper::Burley06,
     title: "Opacity by the occluder's distance",
     claim: "A shadow fades with the way from its occluder; off by default.",
+    look: "how the shadow fades with the distance to what casts it.",
     make: opacity,
 };
 

@@ -32,6 +32,7 @@ pub const I76: Figure = Figure {
     paper: Paper::Burley06,
     title: "Soft shadows from one map",
     claim: "A shadow is sharp where things touch and softer with distance, without acne at the contact.",
+    look: "the shadow from foot to tip: sharp at the contact, softer along the way.",
     make: soft,
 };
 

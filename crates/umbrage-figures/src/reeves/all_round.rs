@@ -20,6 +20,7 @@ pub const OMNI: Figure = Figure {
     paper: Paper::Reeves87,
     title: "A light in all directions",
     claim: "A light inside the scene throws shadows all round, and no seam shows.",
+    look: "the lines where the faces of the cube meet: no edge runs along them.",
     make: omni,
 };
 

@@ -19,6 +19,7 @@ pub const F9: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Bias (0, 0), (.2, .3), (.3, .4)",
     claim: "Moiré goes as the bias grows; the boundary of self-shadow moves.",
+    look: "the stripes of (a) and (d) at bias 0, and how far the line where the sphere shadows itself has moved by (f).",
     make: bias,
 };
 

@@ -15,6 +15,7 @@ pub const BUMP: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Highlights before filtering",
     claim: "A bumpy surface far away keeps its highlight when each bump's own is filtered, and loses it when its normals are.",
+    look: "the far end of the surface, where the highlight fades only if normals are averaged before it is computed.",
     make: bump,
 };
 

@@ -18,6 +18,7 @@ pub const NOPEN: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Width of an edge and height of its caster",
     claim: "Percentage closer filtering makes all edges equally wide; an area light, and Burley's filter, do not.",
+    look: "the edges under the low and the high caster: the filter makes them equally wide, the light with a size does not.",
     make: widths,
 };
 

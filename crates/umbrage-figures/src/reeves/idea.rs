@@ -21,6 +21,7 @@ pub const F1: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Points of view for a simple scene",
     claim: "The two-pass idea: what the camera sees lit is what the light sees.",
+    look: "the three views of one scene: what the light does not see is dark in the camera's.",
     make: points_of_view,
 };
 
@@ -94,6 +95,7 @@ pub const F2: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Ordinary against percentage-closer filtering",
     claim: "Filtering the depths first gives 22.9 and full shadow; comparing first gives .55.",
+    look: "the nine depths under the region, and what each method makes of them: all in shadow, or five of nine.",
     make: two_orders,
 };
 
@@ -149,6 +151,7 @@ pub const F3: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Where samples fall",
     claim: "Uniform, Gaussian, jittered, and inside the region's boundary.",
+    look: "how the dots fill the same footprint: evenly, bunched at the middle, scattered within cells, or kept inside its outline.",
     make: placements,
 };
 
@@ -283,6 +286,7 @@ pub const F5: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Sphere and plane",
     claim: "A red sphere throws its shadow onto an upright green plane.",
+    look: "where the sphere meets its shadow on the plane.",
     make: example,
 };
 
@@ -315,6 +319,7 @@ pub const F6: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Shadow component: ordinary z-buffer against percentage-closer filtering",
     claim: "Jagged and binary against antialiased, from the same map.",
+    look: "the two enlargements: squares of the map in (a), a ramp of many greys in (b).",
     make: component,
 };
 

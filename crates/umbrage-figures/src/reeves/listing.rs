@@ -16,6 +16,7 @@ pub const F4: Figure = Figure {
     paper: Paper::Reeves87,
     title: "The listing, printed and corrected",
     claim: "What SampleShadow does as printed, and what it must do.",
+    look: "the counts of samples by the listing as printed, beside the corrected ones, row by row.",
     make: listing,
 };
 

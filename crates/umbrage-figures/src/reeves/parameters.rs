@@ -38,6 +38,7 @@ pub const F7: Figure = Figure {
     paper: Paper::Reeves87,
     title: "NumSamples 1, 4, 16",
     claim: "Noise falls with the number of samples.",
+    look: "the grain in the soft edge, coarse with one sample and gone with sixteen.",
     make: num_samples,
 };
 
@@ -105,6 +106,7 @@ pub const F8: Figure = Figure {
     paper: Paper::Reeves87,
     title: "ResFactor 1, 3, 8",
     claim: "Softer and wider edges; quantisation shows when the edge is wide.",
+    look: "the width of the edge, and the steps that show in the widest.",
     make: res_factor,
 };
 
@@ -173,6 +175,7 @@ pub const F10: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Maps of 256², 512², 1024²",
     claim: "Small maps are blurry and noisy.",
+    look: "fine shadows: they blur into one another as the map shrinks.",
     make: map_size,
 };
 
@@ -211,6 +214,7 @@ pub const FLOAT: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Float depths against 16-bit integers",
     claim: "Floating point reduces the aliasing of depth; it does not cure it.",
+    look: "the first two pictures: floating point has fewer stripes, not none.",
     make: float,
 };
 
@@ -272,6 +276,7 @@ pub const PASS1: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Regular against stochastic sampling of the map",
     claim: "At low resolution slight aliasing is less objectionable than noise.",
+    look: "the two enlargements: regular steps in one, grain in the other.",
     make: pass1,
 };
 

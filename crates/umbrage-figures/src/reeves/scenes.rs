@@ -19,6 +19,7 @@ pub const F11: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Three coloured lights",
     claim: "Where shadows overlap, colours are left out one by one.",
+    look: "the overlaps of the shadows, each of which takes away one light's colour.",
     make: coloured,
 };
 
@@ -109,6 +110,7 @@ pub const F12: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Two desk lamps",
     claim: "Three casting lights, maps of their own sizes, a floor that is in no map and yet in shadow.",
+    look: "the floor, which receives every shadow although it is in none of the maps.",
     make: desk_lamps,
 };
 
@@ -158,6 +160,7 @@ pub const F13: Figure = Figure {
     paper: Paper::Reeves87,
     title: "The lamps' depth maps",
     claim: "What each light sees, nearer darker; the ground is not there.",
+    look: "what is missing from the maps: the ground, which casts no shadow.",
     make: lamp_maps,
 };
 
@@ -245,6 +248,7 @@ pub const F14: Figure = Figure {
     paper: Paper::Reeves87,
     title: "The bicycle shop",
     claim: "Seven lights, two of which cast: subtle shadows in a complex scene.",
+    look: "the spokes, and their shadows on wall and floor.",
     make: shop,
 };
 

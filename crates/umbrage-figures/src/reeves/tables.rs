@@ -57,6 +57,7 @@ pub const T1: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Time, with and without shadows",
     claim: "Shadows cost a part of the picture's time, far less than one more picture a light.",
+    look: "the measures: how much longer the picture takes with its shadows.",
     make: times,
 };
 
@@ -274,6 +275,7 @@ pub const T2: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Storage of depth maps",
     claim: "A bounding box helps; tiles help scattered scenes and can cost more.",
+    look: "the tables: where tiles take more bytes than the plain map, and where they take a fraction.",
     make: storage,
 };
 

@@ -15,6 +15,7 @@ pub const AREA: Figure = Figure {
     paper: Paper::Umbrage,
     title: "Lights with a size as a mean of maps",
     claim: "The mean of small maps over a light is its penumbra, contacts included; filters of one map only look like it.",
+    look: "the penumbra at the contact, where filters of one map are too wide or too dark.",
     make: area,
 };
 

@@ -70,6 +70,7 @@ pub const SHOWN: Figure = Figure {
     paper: Paper::Umbrage,
     title: "The default beside a paper's map, and beside rays",
     claim: "Edges, contacts and thin shadows as many rays see them, from one small map without a bias.",
+    look: "the enlarged edge and the contact, beside 256 rays a pixel.",
     make: shown,
 };
 
@@ -104,6 +105,7 @@ pub const LADDER_OF_PARTS: Figure = Figure {
     paper: Paper::Umbrage,
     title: "What each part of the default adds",
     claim: "Without a bias, one small map of facets comes closer to truth than sixteen exact rays a pixel.",
+    look: "the error falling from part to part, in the end below that of sixteen rays.",
     make: ladder,
 };
 
@@ -221,6 +223,7 @@ pub const BYTES: Figure = Figure {
     paper: Paper::Umbrage,
     title: "Error against memory",
     claim: "A map of facets is more exact than a depth map of many times its bytes.",
+    look: "how many bytes a depth map needs for the error that a map of facets has.",
     make: bytes,
 };
 

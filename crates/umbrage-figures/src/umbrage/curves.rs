@@ -19,6 +19,7 @@ pub const ACNE: Figure = Figure {
     paper: Paper::Umbrage,
     title: "False shadow against bias",
     claim: "A tilted plane shadows itself as the closed form of D-9 says, one axis or two.",
+    look: "the measured points on the predicted curve, for one axis and for two.",
     make: acne,
 };
 
@@ -84,6 +85,7 @@ pub const NOISE: Figure = Figure {
     paper: Paper::Umbrage,
     title: "Noise against the number of samples",
     claim: "Jitter falls as N^−¾ across an oblique edge, independent samples as N^−½ (D-12).",
+    look: "the two slopes: jittered samples fall more steeply than independent ones.",
     make: noise,
 };
 

@@ -19,6 +19,7 @@ pub const BIAS: Figure = Figure {
     paper: Paper::Umbrage,
     title: "Every engine's default bias on one scene",
     claim: "Each default is another bias in world units, and none of them is right for a scene that it was not made for.",
+    look: "the engines' dots beside the curve of slope-scaled biases: stripes upward, detached shadows to the right.",
     make: bias,
 };
 

@@ -18,6 +18,7 @@ pub const FAULTS: Figure = Figure {
     paper: Paper::Umbrage,
     title: "One board, every fault by name",
     claim: "A larger bias trades acne for detachment; the tangent plane needs neither.",
+    look: "the percentage-closer pictures: as the bias grows, acne goes and detachment comes.",
     make: table,
 };
 

@@ -14,6 +14,7 @@ pub const COMMON: Figure = Figure {
     paper: Paper::Umbrage,
     title: "The default on scenes as people have them",
     claim: "Solids, balls, land, leaves, tubes, things that touch and scanned statues, with one setting and no rays.",
+    look: "the column of errors beside that of one exact ray and of the papers' best mixture.",
     make: |cx| figure(cx, &EASIER),
 };
 
@@ -22,6 +23,7 @@ pub const KINDS: Figure = Figure {
     paper: Paper::Umbrage,
     title: "The default on what shadow maps find hard",
     claim: "Fences, letters, stairs, louvres, cities, gears, hair, wheels, pergolas and rooms, with one setting and no rays.",
+    look: "the hair and the fences, in which one pixel holds several shadows.",
     make: |cx| figure(cx, &HARDER),
 };
 

@@ -17,6 +17,7 @@ pub const PRESETS: Figure = Figure {
     paper: Paper::Umbrage,
     title: "All methods, all scenes, every fault by name",
     claim: "No published method is free of false shadow and leaks on every scene; which fault each one has is a property of the method.",
+    look: "the columns of the picture: a method has no fault only where all of its column is grey.",
     make: presets,
 };
 

@@ -68,6 +68,7 @@ pub const SIZES: Figure = Figure {
     paper: Paper::Umbrage,
     title: "Every method on the table, against map size",
     claim: "What each method needs of a map, and what it leaves wrong however large the map is.",
+    look: "where each curve levels off: that is what a larger map will not mend.",
     make: sizes,
 };
 
@@ -204,6 +205,7 @@ pub const GRAZING: Figure = Figure {
     paper: Paper::Umbrage,
     title: "Every method under a low sun",
     claim: "Six degrees above the floor a texel's depth step is ten texels deep: what each method makes of it.",
+    look: "the floor under the low sun, where most methods leave stripes or nothing.",
     make: grazing,
 };
 

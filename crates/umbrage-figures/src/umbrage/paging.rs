@@ -22,6 +22,7 @@ pub const PAGING: Figure = Figure {
     paper: Paper::Umbrage,
     title: "A depth map of 16,384² through a few pages",
     claim: "Camera order is local: a few pages of a map on disk serve a whole picture, and change no bit of it.",
+    look: "the table of pages that were read, by the order in which the picture is drawn.",
     make: paging,
 };
 

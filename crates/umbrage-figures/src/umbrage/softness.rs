@@ -18,6 +18,7 @@ pub const SOFTNESS: Figure = Figure {
     paper: Paper::Umbrage,
     title: "Soft shadows against the size of the light",
     claim: "A radius by the light's size gives an area light's own penumbra where one caster throws it.",
+    look: "the widths of the penumbrae in the plot, beside the ray-traced ones.",
     make: softness,
 };
 

@@ -17,6 +17,7 @@ pub const STORAGE: Figure = Figure {
     paper: Paper::Umbrage,
     title: "What a map of each scene takes, and why",
     claim: "Facets in memory are smaller than a packed file of depths where facets are large and depths pack badly.",
+    look: "the last column, which says why one storage is smaller than the other on each map.",
     make: storage,
 };
 

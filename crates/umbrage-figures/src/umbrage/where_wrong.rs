@@ -13,6 +13,7 @@ pub const WHERE: Figure = Figure {
     paper: Paper::Umbrage,
     title: "The default's worst pixels, and why they are wrong",
     claim: "What is left is at edges, gaps and hollows finer than the map's samples; three pixels from any edge nothing is wrong.",
+    look: "the enlarged pixels: each is at an edge or a gap that is finer than the map's samples.",
     make: where_wrong,
 };
 

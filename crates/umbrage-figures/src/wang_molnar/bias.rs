@@ -21,6 +21,7 @@ pub const F3: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "The bias and its cost",
     claim: "A bias of half a depth step ends false shadow; it also moves every shadow away from its caster.",
+    look: "the gap between caster and shadow in the second plot, as wide as the bias makes it.",
     make: bias,
 };
 

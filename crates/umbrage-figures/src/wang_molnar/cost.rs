@@ -30,6 +30,7 @@ pub const F12: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "Smaller and smaller maps, no bias",
     claim: "As the map shrinks the picture degrades slowly: shadows leak more, and more pixels need virtual samples.",
+    look: "the small shadows, which leak first as the map shrinks.",
     make: degrade,
 };
 
@@ -116,6 +117,7 @@ pub const COST: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "What second depths cost",
     claim: "With culling pass 1 costs what first depths cost, and few pixels need virtual samples.",
+    look: "the table: fragments of second depths beside those of first depths, with culling and without.",
     make: cost,
 };
 

@@ -20,6 +20,7 @@ pub const F7: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "A solid thinner than a texel's depth step",
     claim: "Second depths alone take a thin slab's first surface for its second; virtual samples tell them apart.",
+    look: "the lit side of the slab, dark in spots under plain comparison.",
     make: thin,
 };
 
@@ -75,6 +76,7 @@ pub const F9: Figure = Figure {
     title: "A tangent plane that climbs past its occluder",
     claim: "Where a curved surface is nearly edge-on to the light, virtual samples are wrong and plain comparison is right: they are asked \
             only where it is divided.",
+    look: "the band where the curved surface is nearly edge-on to the light.",
     make: steep,
 };
 
@@ -247,6 +249,7 @@ pub const SHEETS: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "Nothing but sheets",
     claim: "Plane sheets need no bias, curved ones do, and a scene of sheets alone is the first-depth algorithm over again.",
+    look: "the curved sheet, which needs a bias as first depths always did.",
     make: sheets,
 };
 

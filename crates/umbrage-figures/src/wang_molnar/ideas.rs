@@ -29,6 +29,7 @@ pub const F1: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "The two passes",
     claim: "The light keeps the nearest depth of each texel; a camera's sample that lies farther is in shadow.",
+    look: "the second pass: a sample at the depth that its texel keeps is lit, one behind it is not.",
     make: passes,
 };
 
@@ -123,6 +124,7 @@ pub const F2: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "Samples that do not match",
     claim: "On a tilted surface half the camera's samples lie behind the depth that their texel keeps.",
+    look: "the camera's samples, half of which lie behind the depth that their texel keeps.",
     make: mismatch,
 };
 

@@ -22,6 +22,7 @@ pub const F10: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "The listing, printed and corrected",
     claim: "What percent_illumination does as printed, and what it must do.",
+    look: "the flat sheets, which shadow themselves under the listing as printed.",
     make: listing,
 };
 

@@ -24,6 +24,7 @@ pub const TAGS: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "Object tags instead of depths",
     claim: "With a tag a polygon, edges between polygons are falsely dark; with a tag an object, it cannot shadow itself.",
+    look: "the dark lines along edges between polygons, and the missing shadow of an object on itself.",
     make: tags,
 };
 
@@ -171,6 +172,7 @@ pub const PCF_BIAS: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "A wider filter needs a larger bias",
     claim: "The smallest bias without false shadow grows in proportion to the filter's half-width.",
+    look: "the wide filter's stripes at a bias that was enough for the narrow one.",
     make: pcf_bias,
 };
 

@@ -16,6 +16,7 @@ pub const F8: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "Virtual samples on the tangent plane",
     claim: "The plane through a point is known at the map's own samples; on a plane its depth there is exact.",
+    look: "the samples on the tangent plane: they lie on the surface exactly where the map has its own.",
     make: virtual_samples,
 };
 

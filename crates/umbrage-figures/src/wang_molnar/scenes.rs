@@ -89,6 +89,7 @@ pub const F13: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "Pipes",
     claim: "Dense, curved solids, and no bias to set.",
+    look: "the pipes' own shadows on one another, without a stripe.",
     make: pipes,
 };
 
@@ -115,6 +116,7 @@ pub const F14: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "A walk through a building",
     claim: "Polygons large and thin, solids and sheets together, by one routine without a bias.",
+    look: "the mullions, the paper screen and the leaves: thick, thin and flat casters by one routine.",
     make: hall,
 };
 
@@ -172,6 +174,7 @@ pub const F15: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "Bowling",
     claim: "A sequence without a bias, in which nothing flickers that does not move.",
+    look: "what rests from frame to frame: nothing about it changes.",
     make: bowling,
 };
 

@@ -25,6 +25,7 @@ pub const F5: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "Where the second surface lies",
     claim: "Second surfaces turn away from the light, and solids that reach into each other throw the shadow of their union.",
+    look: "the last picture, white where the two ways to find the second surface differ.",
     make: second,
 };
 
@@ -158,6 +159,7 @@ pub const F6: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "The point of decision: first surface or second",
     claim: "At the first surface lit points lie on both sides of the decision; at the second nothing visible lies near it.",
+    look: "the plots: at the first surface values crowd around zero, at the second none is near it.",
     make: decision,
 };
 

@@ -15,6 +15,7 @@ pub const F11: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "Coordinate systems",
     claim: "Four matrices lead from the world to either eye and either screen, and back without loss.",
+    look: "the measures: each round trip ends where it began, but for a rounding.",
     make: spaces,
 };
 

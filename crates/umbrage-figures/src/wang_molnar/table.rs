@@ -175,6 +175,7 @@ pub const F4: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "A table on whose legs no bias works",
     claim: "At 512² every bias leaves false shadow on the floor or parts shadows from the legs; second depths do neither, without a bias.",
+    look: "the floor and the foot of the far leg: one of them is wrong for every bias, and neither is for second depths.",
     make: table,
 };
 

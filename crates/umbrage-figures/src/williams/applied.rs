@@ -18,6 +18,7 @@ pub const F6: Figure = Figure {
     paper: Paper::Williams78,
     title: "The shadow on the shaded picture",
     claim: "Shaded by the same light, the cosine hides what is left of the artefacts.",
+    look: "the lit sides: artefacts that the shadow alone shows plainly are hardly seen once the picture is shaded.",
     make: applied,
 };
 

@@ -27,6 +27,7 @@ pub const F7: Figure = Figure {
     paper: Paper::Williams78,
     title: "A sculpted smile",
     claim: "Curved surfaces throw curved shadows on a flat and on a curved surface.",
+    look: "the smile's shadow, on the flat surface and on the curved one.",
     make: smile,
 };
 
@@ -88,6 +89,7 @@ pub const F8: Figure = Figure {
     paper: Paper::Williams78,
     title: "The robot",
     claim: "More than 350 bicubic patches throw one shadow over floor and wall.",
+    look: "the one shadow that runs without a break from the floor up the wall.",
     make: robot,
 };
 
@@ -184,6 +186,7 @@ pub const COST: Figure = Figure {
     paper: Paper::Williams78,
     title: "What it costs",
     claim: "Work grows linearly with the scene; the post-process transforms a fixed number of points.",
+    look: "the lines of the plot: work in the two views rises with the scene, work in the post-process does not.",
     make: cost,
 };
 
@@ -293,6 +296,7 @@ pub const PLANE: Figure = Figure {
     paper: Paper::Williams78,
     title: "Projection onto the ground",
     claim: "The cheaper method throws the same shadow on its one plane, and none on anything else.",
+    look: "the ground, where projection and depth map agree, and the other surfaces, on which projection throws nothing.",
     make: plane,
 };
 

@@ -22,6 +22,7 @@ pub const F3: Figure = Figure {
     paper: Paper::Williams78,
     title: "Shadow alone, reduced bias",
     claim: "Quantisation moiré, worst where the surface turns edge-on to the light and where it turns edge-on to the observer.",
+    look: "the bands and moiré on the lit sides of the spheres, densest where a surface turns edge-on.",
     make: reduced_bias,
 };
 
@@ -182,6 +183,7 @@ pub const F4: Figure = Figure {
     paper: Paper::Williams78,
     title: "Increased bias, dither, interpolated depth",
     claim: "The moiré is broken into noise.",
+    look: "the same places as in Figure 3: bands have become noise, and edges are where they were.",
     make: dither,
 };
 
@@ -285,6 +287,7 @@ pub const F5: Figure = Figure {
     paper: Paper::Williams78,
     title: "Edges dequantised, image low-passed",
     claim: "Smooth contours; the dither merges into grey.",
+    look: "the shadow's outline before and after, pixel by pixel in the enlargement.",
     make: smoothing,
 };
 

@@ -19,6 +19,7 @@ pub const F1: Figure = Figure {
     paper: Paper::Williams78,
     title: "The observer's view",
     claim: "Four shaded spheres, no shadow yet.",
+    look: "the four spheres, shaded from where the observer stands, and the z-buffer that holds how far away they are.",
     make: observer,
 };
 
@@ -85,6 +86,7 @@ pub const F2: Figure = Figure {
     paper: Paper::Williams78,
     title: "The light's view",
     claim: "The same scene from a light at infinity, 100° to the left: what is hidden here is in shadow.",
+    look: "which parts of the spheres the light sees, and then, in Figure 1, which parts are missing here.",
     make: light_view,
 };
 
@@ -117,6 +119,7 @@ pub const TEAPOT: Figure = Figure {
     paper: Paper::Williams78,
     title: "The teapot's curved shadow",
     claim: "A body of bicubic patches throws its shadow on a plane and on itself.",
+    look: "the spout's shadow on the body, and the handle's on the ground.",
     make: teapot,
 };
 

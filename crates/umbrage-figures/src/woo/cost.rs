@@ -15,6 +15,7 @@ pub const COST: Figure = Figure {
     paper: Paper::Woo92,
     title: "Whole units first",
     claim: "Whole numbers settle most comparisons, with the same answers.",
+    look: "the measures: the share of comparisons that whole numbers settle, and how many answers differ.",
     make: cost,
 };
 

@@ -20,6 +20,7 @@ pub const F1: Figure = Figure {
     paper: Paper::Woo92,
     title: "Why a nearest depth shadows itself, and a midpoint does not",
     claim: "A surface between two samples lies behind the nearer one; halfway to the next surface nothing lies.",
+    look: "the stretches where the surface lies behind the nearest depths, and the midpoints, behind which it lies nowhere.",
     make: profile,
 };
 

@@ -21,6 +21,7 @@ pub const RIM: Figure = Figure {
     paper: Paper::Woo92,
     title: "Shadow that reaches the rim of a spot's cone",
     claim: "Samples outside the cone count as shadow; counted as lit they draw a bright line along the rim.",
+    look: "the bright line along the edge of the light's cone, and its absence where outside counts as shadow.",
     make: rim,
 };
 

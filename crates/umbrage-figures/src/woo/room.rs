@@ -40,6 +40,7 @@ pub const F2: Figure = Figure {
     paper: Paper::Woo92,
     title: "A 256² map under a 75° spot, biases of .2 to .4",
     claim: "The old algorithm leaves surfaces noisy at this size.",
+    look: "the noise on walls and floor, beside truth.",
     make: old,
 };
 
@@ -89,6 +90,7 @@ pub const F3: Figure = Figure {
     paper: Paper::Woo92,
     title: "The same by midpoints, without a bias",
     claim: "Clean at 256², and cleaner than the old algorithm at 1024².",
+    look: "the same walls and floor, clean at the same size; and the slab in the last picture, on which midpoints fail.",
     make: midpoints,
 };
 
