@@ -41,7 +41,10 @@ mod probe;
 mod query;
 mod surfaces;
 
-pub use depths::{AnyDepth, BiasCone, Biased, Compared, OnPlane, Radius, ReceiverDepth, Spread};
+pub use depths::{
+    AnyDepth, BiasCone, Biased, Compared, Moved, NormalOffset, OffsetGrowth, OnPlane, Radius, ReceiverDepth,
+    SlopeScaled, Spread,
+};
 pub use explanation::{Explanation, Question};
 pub use fearless_simd::Simd;
 pub use filters::{
