@@ -18,6 +18,7 @@
 
 mod bake;
 mod bind;
+mod engine;
 mod error;
 mod field;
 mod fields;

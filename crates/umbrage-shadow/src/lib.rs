@@ -46,7 +46,7 @@ pub use depths::{
     SlopeScaled, Spread,
 };
 pub use explanation::{Explanation, Question};
-pub use fearless_simd::Simd;
+pub use fearless_simd::{Simd, f32x16};
 pub use filters::{
     Conditional, DualPlane, FilteredDepth, FromMoments, IntegerFirst, MapRadius, OccluderFalloff, Opacity, Pcf, Soft,
     Softness, VirtualWhen, Williams, integer_first, moments, williams,
