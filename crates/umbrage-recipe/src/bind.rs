@@ -3,7 +3,8 @@
 //! What a recipe chooses stays data down to the filter ([`AnyPattern`], [`AnyDepth`](umbrage_shadow::AnyDepth)), so that each filter is
 //! compiled once.
 
-use crate::values::{PatternName, Values};
+use crate::pattern::PatternName;
+use crate::values::Values;
 use crate::{PresetName, RecipeError};
 use umbrage_depth::{Map, Storage};
 use umbrage_sample::{

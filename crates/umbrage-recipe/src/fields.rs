@@ -2,7 +2,8 @@
 
 use crate::engine::EngineBias;
 use crate::kind::Value;
-use crate::values::{DepthName, PatternName, Rule, Window};
+use crate::pattern::PatternName;
+use crate::values::{DepthName, Rule, Window};
 use crate::{Field, Kind, PresetName};
 use umbrage_depth::{Moments, SameSurface};
 use umbrage_plane::Bias;

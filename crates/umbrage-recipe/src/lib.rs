@@ -25,6 +25,7 @@ mod fields;
 mod kind;
 mod light;
 mod moments;
+mod pattern;
 mod preset;
 mod reach;
 mod recipe;

@@ -1,5 +1,5 @@
 use crate::engine::EngineBias;
-use crate::values::PatternName;
+use crate::pattern::PatternName;
 use umbrage_depth::Stored;
 use umbrage_engines::Engine;
 use umbrage_plane::Bias;

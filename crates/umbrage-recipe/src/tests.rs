@@ -1,7 +1,8 @@
 //! What is read, what is refused, and that what is written reads as the same.
 
 use crate::engine::{Depth, EngineBias};
-use crate::values::{DepthName, PatternName, Rule, Values};
+use crate::pattern::PatternName;
+use crate::values::{DepthName, Rule, Values};
 use crate::{Field, Kind, PresetName, Recipe, help, markdown};
 use proptest::prelude::*;
 use umbrage_engines::{Conditions, WorldBias};

@@ -1,5 +1,6 @@
 use crate::engine::{Depth, EngineBias};
 use crate::moments::MomentValues;
+use crate::pattern::PatternName;
 use crate::preset::ByEngine;
 use crate::{PresetName, RecipeError};
 use umbrage_bake::{Deep, Refinement};
@@ -34,25 +35,6 @@ impl Rule {
             Self::Midpoint => Stored::Midpoint,
         }
     }
-}
-
-/// Where one looks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PatternName {
-    Jittered,
-    Table,
-    Uniform,
-    Gaussian,
-    Inside,
-    Warp,
-    Every,
-    Tent,
-    Centre,
-    Disc,
-    Castano5,
-    Castano7,
-    AreaTent,
-    Vogel,
 }
 
 /// Which depth is compared.

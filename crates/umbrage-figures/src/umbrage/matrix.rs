@@ -23,7 +23,7 @@ pub const PRESETS: Figure = Figure {
     id: "U-presets",
     paper: Paper::Umbrage,
     title: "All presets, all scenes, every fault by name",
-    claim: "No published method and no engine's default is free of false shadow and leaks on every scene; which fault each one has is a property of the method.",
+    claim: "No published way to compare depths and no engine's default is free of false shadow and leaks on every scene; which fault each one has is a property of the method.",
     make: presets,
 };
 
@@ -186,8 +186,8 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
     made.measures = measures;
     made.note = "In the pictures orange is too dark, false shadow, and blue too light, a leak; a number is written where it is more than counts as none. \
                  Surfaces turned away from the light are left grey. False shadow is looked for on lit surfaces that face the light, leaks on shadowed ones, both off truth's edges; the error is \
-                 that of every wholly covered pixel. Leak area is the share of those shadowed pixels that have a twentieth of the light or more. Midpoints in Burley's cone are a mix that nobody published. \
-                 Engines' defaults have their own kernels and biases, but the maps of all others; three.js casts with back faces, open sheets of one side included. One unit of a scene is taken for one of the \
+                 that of every wholly covered pixel. Leak area is the share of those shadowed pixels that have a twentieth of the light or more: light that variance shadow maps let through is too faint to count as a leak, but wide. Midpoints in Burley's cone are a mix that nobody published. \
+                 Engines' defaults have their own kernels and biases, but the maps of all others; three.js casts with back faces, and sheets with both sides. One unit of a scene is taken for one of the \
                  engine's, and the light's near and far planes for those that the engine would choose. Soft methods are judged against the hard truth of a point light. Maps are 512², a pixel is asked once."
         .into();
     Ok(made)

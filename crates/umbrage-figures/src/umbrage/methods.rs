@@ -36,26 +36,21 @@ pub(super) const METHODS: [Method; 11] = [
 pub(super) const PUBLISHED: usize = 7;
 
 /// Maps that are filtered before they are asked.
-pub(super) const PREFILTERED: [Method; 5] = [
-    ("variance", "vsm"),
-    ("exponential", "esm"),
-    ("exponential variance, 2", "evsm2"),
-    ("exponential variance, 4", "evsm4"),
-    ("four moments", "msm"),
-];
+pub(super) const PREFILTERED: [Method; 5] =
+    [("vsm", "vsm"), ("esm", "esm"), ("evsm2", "evsm2"), ("evsm4", "evsm4"), ("msm", "msm")];
 
 /// What engines do when nobody sets anything.
 pub(super) const ENGINES: [Method; 10] = [
-    ("three.js PCF", "three-pcf"),
-    ("Babylon.js none", "babylon-none"),
-    ("Babylon.js PCF", "babylon-pcf"),
-    ("Filament PCF", "filament-pcf"),
-    ("Bevy Gaussian", "bevy-gaussian"),
-    ("Godot Soft Low", "godot-pcf"),
-    ("URP hard", "urp-hard"),
-    ("URP soft", "urp-soft"),
-    ("HDRP spot", "hdrp-pcf5"),
-    ("HDRP sun", "hdrp-pcf7"),
+    ("three-pcf", "three-pcf"),
+    ("babylon-none", "babylon-none"),
+    ("babylon-pcf", "babylon-pcf"),
+    ("filament-pcf", "filament-pcf"),
+    ("bevy-gaussian", "bevy-gaussian"),
+    ("godot-pcf", "godot-pcf"),
+    ("urp-hard", "urp-hard"),
+    ("urp-soft", "urp-soft"),
+    ("hdrp-pcf5", "hdrp-pcf5"),
+    ("hdrp-pcf7", "hdrp-pcf7"),
 ];
 
 /// Index of a method by its name.

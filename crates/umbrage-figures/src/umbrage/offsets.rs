@@ -88,7 +88,7 @@ fn offsets(cx: &Context) -> anyhow::Result<Made> {
         let measure = format!("{scene}: {name}, false shadow");
         made.measures.push(match *name {
             "constant" => Measure::info(&measure, one.acne, "share"),
-            _ => Measure::at_most(&measure, one.acne, "share", 0.002),
+            _ => Measure::at_most(&measure, one.acne, "share", 0.002).full_size(cx.quick),
         });
         made.measures.push(Measure::info(&format!("{scene}: {name}, leak"), one.leak, "share"));
     }
