@@ -45,9 +45,9 @@ impl Field {
         let count = |value: &String| values.iter().filter(|other| *other == value).count();
         let Some(common) = values.iter().max_by_key(|value| count(value)) else { return String::new() };
         let others = papers.iter().zip(&values).filter(|(_, value)| *value != common);
-        let others: String = others.map(|(preset, value)| format!(", {value} ({})", preset.name())).collect();
+        let others: Vec<String> = others.map(|(preset, value)| format!(", {value} ({})", preset.name())).collect();
         let own = if engines.iter().any(|preset| of(preset) != *common) { ", their own (engines')" } else { "" };
-        format!("{common}{others}{own}")
+        format!("{common}{}{own}", others.concat())
     }
 
     pub(crate) fn presets(&self) -> String {
