@@ -3,6 +3,7 @@
 use crate::args::{Cli, RecipesArgs};
 use crate::shell::{Shell, Usage};
 use serde_json::{Value, json};
+use umbrage_engines::Engine;
 use umbrage_recipe::{Field, PresetName, Recipe, help};
 use umbrage_scene::gallery;
 
@@ -35,7 +36,12 @@ pub fn recipes(cli: &Cli, args: &RecipesArgs, shell: &mut Shell<'_>) -> anyhow::
             write!(shell.out, "{}: {}\n\n{}", preset.name(), preset.about(), help(preset))?;
         }
     } else {
-        for preset in chosen {
+        let (engines, papers): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|preset| preset.engine().is_some());
+        for preset in papers {
+            writeln!(shell.out, "{:20} {}", preset.name(), preset.about())?;
+        }
+        writeln!(shell.out, "\nWhat engines do by default, each with its own kernel and bias:")?;
+        for preset in engines {
             writeln!(shell.out, "{:20} {}", preset.name(), preset.about())?;
         }
     }
@@ -50,7 +56,7 @@ fn described(preset: PresetName) -> Value {
         })
     };
     json!({
-        "name": preset.name(), "about": preset.about(), "stored": Recipe::from(preset).stored().name(),
+        "name": preset.name(), "about": preset.about(), "engine": preset.engine().map(Engine::name), "stored": Recipe::from(preset).stored().name(),
         "fields": Field::of(preset).map(field).collect::<Vec<_>>(),
     })
 }

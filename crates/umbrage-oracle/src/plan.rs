@@ -49,6 +49,7 @@ impl Plan {
                 zeta - screen.decode().zeta((screen.key(zeta) - f64::from(amount)) as f32)
             }
         };
+        let bias_world = bias_world + recipe.lift(light, zeta, SLOPE);
         let filter_half = f64::from(recipe.least_half());
         Self {
             depth_bits: None,

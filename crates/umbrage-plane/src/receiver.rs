@@ -113,24 +113,53 @@ impl Receiver {
     /// A world bias is exact in every kind of map (spec D-8).
     #[inline(always)]
     pub fn nearer(&self, view: &View, bias: Bias) -> f32 {
-        let world = match bias {
-            Bias::Map(amount) if self.kind == Kind::Screen || amount.is_infinite() => return self.depth - amount,
+        match bias {
+            Bias::Map(amount) if self.kind == Kind::Screen || amount.is_infinite() => self.depth - amount,
+            bias => self.toward_light(view, self.in_world(view, bias)),
+        }
+    }
+
+    /// How far `bias` moves this receiver toward the light, world units along the light's axis (along the ray in a radial map).
+    #[inline(always)]
+    pub fn in_world(&self, view: &View, bias: Bias) -> f32 {
+        match bias {
+            Bias::Map(amount) if amount.is_infinite() => amount,
             Bias::Map(amount) => self.screen_step(view, amount),
             Bias::World(amount) => amount,
             Bias::Texels(amount) => amount * self.texel_world.max_element(),
-            Bias::Steps(amount) => {
-                let step = self.texel_world.max_element() * self.slope;
-                // Edge-on no finite step exists; none at all is still none.
-                if step.is_finite() {
-                    amount * step
-                } else if amount > 0.0 {
-                    f32::INFINITY
-                } else {
-                    0.0
-                }
-            }
-        };
-        self.toward_light(view, world)
+            Bias::Steps(amount) => scaled(amount, self.texel_world.max_element() * self.slope),
+        }
+    }
+
+    /// `amount` times the change of the plane's axial depth from a texel to the next of its row or its column, whichever is larger: the slope by which
+    /// rasterisers scale a bias, in world units. On a surface that rises along a row or a column it is [`Bias::Steps`] of the same amount, along
+    /// the map's diagonal as little as 0.71 of that. Edge-on no finite step exists: +∞, or 0 for an `amount` of 0.
+    #[inline(always)]
+    pub fn steeper_steps(&self, view: &View, amount: f32) -> f32 {
+        let ray = if view.is_perspective() { self.eye / self.eye.z } else { DVec3::Z };
+        let along = self.normal.dot(ray).abs();
+        let rise = (self.normal.truncate().abs() * self.texel_world.as_dvec2()).max_element();
+        let step = rise / along;
+        scaled(amount, if step.is_nan() { f32::INFINITY } else { step as f32 })
+    }
+
+    /// This receiver moved by `along` world units along its normal, to the side that the light is on (negative: to the other side), so that it is looked up at
+    /// another place and another depth. What belongs to the surface stays: its slope, its cosine, and the extent of its footprint.
+    /// `None` where that leads behind the light, or nowhere.
+    #[inline(always)]
+    pub fn offset(&self, view: &View, along: f64) -> Option<Self> {
+        let outward = if self.facing < 0.0 { -along } else { along };
+        let eye = self.eye + self.normal * outward;
+        let in_front = if view.is_perspective() { -eye.z > 0.0 } else { eye.is_finite() };
+        if !in_front {
+            return None;
+        }
+        let texel = view.eye_to_texel(eye);
+        let shift = (texel - self.texel).as_vec2();
+        let Footprint { centre, half, corners } = self.footprint;
+        let footprint = Footprint { centre: centre + shift, half, corners: corners.map(|corner| corner + shift) };
+        let texel_world = view.texel_world(-eye.z).as_vec2();
+        Some(Self { footprint, texel, depth: view.depth(eye), texel_world, eye, ..*self })
     }
 
     /// A step of screen depth toward the light in world units: along the axis, or along the ray in a radial map.
@@ -158,6 +187,18 @@ impl Receiver {
         } else {
             self.depth - world
         }
+    }
+}
+
+/// So many steps. Edge-on, where no finite step exists, none at all is still none.
+#[inline(always)]
+fn scaled(amount: f32, step: f32) -> f32 {
+    if step.is_finite() {
+        amount * step
+    } else if amount > 0.0 {
+        f32::INFINITY
+    } else {
+        0.0
     }
 }
 

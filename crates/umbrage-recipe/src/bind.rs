@@ -3,11 +3,13 @@
 //! What a recipe chooses stays data down to the filter ([`AnyPattern`], [`AnyDepth`](umbrage_shadow::AnyDepth)), so that each filter is
 //! compiled once.
 
-use crate::values::{PatternName, Values};
+use crate::pattern::PatternName;
+use crate::values::Values;
 use crate::{PresetName, RecipeError};
 use umbrage_depth::{Map, Storage};
 use umbrage_sample::{
-    AnyPattern, Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Table, Tent, Uniform,
+    AnyPattern, AreaTent, Castano, Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp,
+    Table, Tent, Uniform, Vogel,
 };
 use umbrage_shadow::{
     Around, Conditional, Filter, FilteredDepth, IntegerFirst, Pcf, Shadow, ShadowMap, Soft, Williams,
@@ -39,7 +41,6 @@ impl Values {
                 let filter = Williams::default().with_bias(self.biased.low).with_lookup(self.lookup);
                 over(filter.with_dither(self.dither), maps)
             }
-            PresetName::Reeves87 | PresetName::Reeves87Recommended | PresetName::Woo92 => self.closer_over(maps),
             PresetName::WangMolnar94 => {
                 let filter = Conditional::default()
                     .with_pattern(self.pattern())
@@ -71,6 +72,7 @@ impl Values {
                 let filter = self.moments.filter.with_bias(self.biased.low);
                 over(filter, maps.into_iter().map(|map| self.moments.over(preset, map)).collect())
             }
+            _ => self.closer_over(maps),
         }
     }
 
@@ -95,6 +97,10 @@ impl Values {
             PatternName::Every => EveryTexel.into(),
             PatternName::Tent => Tent.into(),
             PatternName::Centre => Centre.into(),
+            PatternName::Castano5 => Castano::Five.into(),
+            PatternName::Castano7 => Castano::Seven.into(),
+            PatternName::AreaTent => AreaTent.into(),
+            PatternName::Vogel => Vogel::default().with_num_samples(num_samples).into(),
             PatternName::Disc => Disc::default().with_num_samples(num_samples).with_density(Density::Uniform).into(),
         }
     }

@@ -33,19 +33,21 @@ impl Field {
         read.then_some(()).ok_or_else(|| RecipeError::value(self.name, text, self.kind.to_string()))
     }
 
-    /// The defaults in few words: what most presets have, then the others by name.
+    /// The defaults in few words: what most presets have, then the others by name. Engines' own are in a table of their own.
     pub(crate) fn defaults(&self) -> String {
         let of = |preset: &PresetName| match self.default(*preset) {
             Some(value) if value == "inf" => "∞".into(),
             Some(value) => format!("`{value}`"),
             None => "none".into(),
         };
-        let values: Vec<String> = self.of.iter().map(of).collect();
+        let (engines, papers): (Vec<_>, Vec<_>) = self.of.iter().partition(|preset| preset.engine().is_some());
+        let values: Vec<String> = papers.iter().map(of).collect();
         let count = |value: &String| values.iter().filter(|other| *other == value).count();
         let Some(common) = values.iter().max_by_key(|value| count(value)) else { return String::new() };
-        let others = self.of.iter().zip(&values).filter(|(_, value)| *value != common);
-        let others = others.map(|(preset, value)| format!(", {value} ({})", preset.name()));
-        common.clone() + &others.collect::<String>()
+        let others = papers.iter().zip(&values).filter(|(_, value)| *value != common);
+        let others: Vec<String> = others.map(|(preset, value)| format!(", {value} ({})", preset.name())).collect();
+        let own = if engines.iter().any(|preset| of(preset) != *common) { ", their own (engines')" } else { "" };
+        format!("{common}{}{own}", others.concat())
     }
 
     pub(crate) fn presets(&self) -> String {
@@ -56,6 +58,9 @@ impl Field {
         if let (Some(but), None) = (others.next(), others.next()) {
             return format!("all but {}", but.name());
         }
-        self.of.iter().map(|preset| preset.name()).collect::<Vec<_>>().join(", ")
+        // Engines' presets know the same fields, all of them.
+        let engines = PresetName::ENGINES.iter().all(|preset| self.of.contains(preset));
+        let own = self.of.iter().filter(|preset| !engines || preset.engine().is_none()).map(|preset| preset.name());
+        own.chain(engines.then_some("engines'")).collect::<Vec<_>>().join(", ")
     }
 }

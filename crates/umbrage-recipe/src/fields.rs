@@ -1,57 +1,59 @@
 //! The rows of the table.
 
+use crate::engine::EngineBias;
 use crate::kind::Value;
-use crate::values::{DepthName, PatternName, Rule, Window};
+use crate::pattern::PatternName;
+use crate::values::{DepthName, Rule, Window};
 use crate::{Field, Kind, PresetName};
 use umbrage_depth::{Moments, SameSurface};
 use umbrage_plane::Bias;
 use umbrage_sample::Density;
 use umbrage_shadow::williams::{DitherLaw, Guard, Lookup};
-use umbrage_shadow::{OccluderFalloff, Radius, Spread, VirtualWhen};
+use umbrage_shadow::{OccluderFalloff, OffsetGrowth, Radius, Spread, VirtualWhen};
 
 const AUTO: &[PresetName] = &[PresetName::Auto];
+
+/// These presets and those of engines.
+macro_rules! and_engines {
+    ($($preset:ident),+ $(,)?) => {
+        &[
+            $(PresetName::$preset,)+
+            PresetName::ThreePcf,
+            PresetName::BabylonNone,
+            PresetName::BabylonPcf,
+            PresetName::FilamentPcf,
+            PresetName::BevyGaussian,
+            PresetName::GodotPcf,
+            PresetName::UrpHard,
+            PresetName::UrpSoft,
+            PresetName::HdrpPcf5,
+            PresetName::HdrpPcf7,
+        ]
+    };
+}
+
 /// All presets whose map keeps depths: which of them is free.
-const STORING: &[PresetName] = &[
-    PresetName::Williams78,
-    PresetName::Reeves87,
-    PresetName::Reeves87Recommended,
-    PresetName::Woo92,
-    PresetName::WangMolnar94,
-    PresetName::Burley,
-    PresetName::Fernando,
-    PresetName::Ordinary,
-    PresetName::Vsm,
-    PresetName::Esm,
-    PresetName::Evsm2,
-    PresetName::Evsm4,
-    PresetName::Msm,
+const STORING: &[PresetName] = and_engines![
+    Williams78,
+    Reeves87,
+    Reeves87Recommended,
+    Woo92,
+    WangMolnar94,
+    Burley,
+    Fernando,
+    Ordinary,
+    Vsm,
+    Esm,
+    Evsm2,
+    Evsm4,
+    Msm,
 ];
-const CLOSER: &[PresetName] = &[PresetName::Reeves87, PresetName::Reeves87Recommended, PresetName::Woo92];
+const CLOSER: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92];
 const SOFT: &[PresetName] = &[PresetName::Burley, PresetName::Fernando];
-const COMPARED: &[PresetName] = &[
-    PresetName::Reeves87,
-    PresetName::Reeves87Recommended,
-    PresetName::Woo92,
-    PresetName::Burley,
-    PresetName::Fernando,
-];
-const PLANES: &[PresetName] = &[
-    PresetName::Reeves87,
-    PresetName::Reeves87Recommended,
-    PresetName::Woo92,
-    PresetName::WangMolnar94,
-    PresetName::Burley,
-    PresetName::Fernando,
-];
-const REGIONS: &[PresetName] =
-    &[PresetName::Reeves87, PresetName::Reeves87Recommended, PresetName::Woo92, PresetName::WangMolnar94];
-const FACTORS: &[PresetName] = &[
-    PresetName::Reeves87,
-    PresetName::Reeves87Recommended,
-    PresetName::Woo92,
-    PresetName::WangMolnar94,
-    PresetName::Ordinary,
-];
+const COMPARED: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92, Burley, Fernando];
+const PLANES: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92, WangMolnar94, Burley, Fernando];
+const REGIONS: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92, WangMolnar94];
+const FACTORS: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92, WangMolnar94, Ordinary];
 const CONDITIONAL: &[PresetName] = &[PresetName::WangMolnar94];
 const WILLIAMS: &[PresetName] = &[PresetName::Williams78];
 const SINGLE: &[PresetName] = &[
@@ -266,9 +268,13 @@ pub const FIELDS: &[Field] = &[
             ("tent", PatternName::Tent),
             ("centre", PatternName::Centre),
             ("disc", PatternName::Disc),
+            ("castano5", PatternName::Castano5),
+            ("castano7", PatternName::Castano7),
+            ("area-tent", PatternName::AreaTent),
+            ("vogel", PatternName::Vogel),
         ],
         |values| values.pattern,
-        "where in the region one looks",
+        "where in the region one looks; the last four are the kernels of engines",
         "Reeves 1987, §3"
     ),
     words!(
@@ -362,7 +368,7 @@ pub const FIELDS: &[Field] = &[
             .map(|(low, high)| (values.biased.low, values.biased.high) = (low, high))
             .is_some(),
         |values| Some((values.biased.low, values.biased.high).write()),
-        "moves the receiver toward the light; a range with `depth=constant` alone, world units with `depth=cone`",
+        "moves the receiver toward the light; a range with `depth=constant` alone, world units with `depth=cone`, 0 with an engine's own",
         "Reeves 1987, §3.2"
     ),
     own!(
@@ -387,9 +393,24 @@ pub const FIELDS: &[Field] = &[
     words!(
         "depth",
         COMPARED,
-        [("constant", DepthName::Constant), ("plane", DepthName::Plane), ("cone", DepthName::Cone)],
+        [
+            ("constant", DepthName::Constant),
+            ("plane", DepthName::Plane),
+            ("cone", DepthName::Cone),
+            ("slope-scaled", DepthName::SlopeScaled),
+            ("normal-offset", DepthName::NormalOffset),
+            ("three", DepthName::Engine(EngineBias::Three)),
+            ("babylon", DepthName::Engine(EngineBias::Babylon)),
+            ("babylon-pcf", DepthName::Engine(EngineBias::BabylonPcf)),
+            ("filament", DepthName::Engine(EngineBias::Filament)),
+            ("bevy", DepthName::Engine(EngineBias::Bevy)),
+            ("godot", DepthName::Engine(EngineBias::Godot)),
+            ("urp", DepthName::Engine(EngineBias::Urp)),
+            ("urp-soft", DepthName::Engine(EngineBias::UrpSoft)),
+            ("hdrp", DepthName::Engine(EngineBias::Hdrp)),
+        ],
         |values| values.depth,
-        "which depth is compared: the receiver's own, its tangent plane's or the bias cone's",
+        "which depth is compared: the receiver's own, its tangent plane's, the bias cone's, its own by a bias that grows with its slope, that of the receiver moved along its normal, or what an engine makes of it when nobody sets its bias",
         ""
     ),
     plain!(
@@ -407,6 +428,38 @@ pub const FIELDS: &[Field] = &[
         |values| values.radius,
         "to where the bias cone measures, with `depth=cone`",
         "Burley 2006"
+    ),
+    plain!(
+        "slope-scale",
+        COMPARED,
+        Kind::Number,
+        |values| values.scaled.slope,
+        "changes of the receiver's depth from texel to texel, a row's or a column's, that are added to `bias`, with `depth=slope-scaled`",
+        "Direct3D 11"
+    ),
+    plain!(
+        "clamp",
+        COMPARED,
+        Kind::Number,
+        |values| values.scaled.most,
+        "most that both together are, world units, with `depth=slope-scaled`",
+        "Direct3D 11"
+    ),
+    plain!(
+        "normal-offset",
+        COMPARED,
+        Kind::Number,
+        |values| values.offset.texels,
+        "texels by which the receiver is moved along its normal, with `depth=normal-offset`",
+        "Holbert 2011"
+    ),
+    words!(
+        "offset-growth",
+        COMPARED,
+        [("even", OffsetGrowth::Even), ("sine", OffsetGrowth::Sine), ("versine", OffsetGrowth::Versine)],
+        |values| values.offset.growth,
+        "what that is multiplied by: 1, or the sine of the angle to the light, or 1 less its cosine",
+        ""
     ),
     plain!(
         "slack",

@@ -18,12 +18,14 @@
 
 mod bake;
 mod bind;
+mod engine;
 mod error;
 mod field;
 mod fields;
 mod kind;
 mod light;
 mod moments;
+mod pattern;
 mod preset;
 mod reach;
 mod recipe;

@@ -1,6 +1,19 @@
+use crate::engine::EngineBias;
+use crate::pattern::PatternName;
 use umbrage_depth::Stored;
+use umbrage_engines::Engine;
 use umbrage_plane::Bias;
 use umbrage_shadow::presets;
+
+/// An engine's kernel and its default bias.
+pub struct ByEngine {
+    pub bias: EngineBias,
+    pub pattern: PatternName,
+    /// Half-extent of the region, texels.
+    pub half: f32,
+    /// Samples of patterns that have a number of them.
+    pub samples: u32,
+}
 
 /// The name that a recipe begins with: a paper's algorithm, or a control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -34,11 +47,31 @@ pub enum PresetName {
     Evsm4,
     /// Moment shadow maps (Peters & Klein 2015).
     Msm,
+    /// three.js, `PCFShadowMap`: five bilinear comparisons on a disc, over back faces.
+    ThreePcf,
+    /// Babylon.js, `FILTER_NONE`: the nearest texel.
+    BabylonNone,
+    /// Babylon.js, `FILTER_PCF` of high quality: Castaño's 5 × 5 texels.
+    BabylonPcf,
+    /// Filament, `PCF`: Castaño's 3 × 3 texels.
+    FilamentPcf,
+    /// Bevy, `Gaussian`: Castaño's 5 × 5 texels.
+    BevyGaussian,
+    /// Godot 4, `Soft Low`: four bilinear comparisons on a disc.
+    GodotPcf,
+    /// Unity's Universal Render Pipeline, hard shadows: one bilinear comparison.
+    UrpHard,
+    /// Unity's Universal Render Pipeline, soft shadows of medium quality: a tent of 5 × 5 texels.
+    UrpSoft,
+    /// Unity's High Definition Render Pipeline, medium quality, spot lights: a tent of 5 × 5 texels.
+    HdrpPcf5,
+    /// Unity's High Definition Render Pipeline, medium quality, directional lights: a tent of 7 × 7 texels.
+    HdrpPcf7,
 }
 
 impl PresetName {
     /// All of them.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 24] = [
         Self::Auto,
         Self::Williams78,
         Self::Reeves87,
@@ -53,6 +86,30 @@ impl PresetName {
         Self::Evsm2,
         Self::Evsm4,
         Self::Msm,
+        Self::ThreePcf,
+        Self::BabylonNone,
+        Self::BabylonPcf,
+        Self::FilamentPcf,
+        Self::BevyGaussian,
+        Self::GodotPcf,
+        Self::UrpHard,
+        Self::UrpSoft,
+        Self::HdrpPcf5,
+        Self::HdrpPcf7,
+    ];
+
+    /// The defaults of engines among them.
+    pub const ENGINES: [Self; 10] = [
+        Self::ThreePcf,
+        Self::BabylonNone,
+        Self::BabylonPcf,
+        Self::FilamentPcf,
+        Self::BevyGaussian,
+        Self::GodotPcf,
+        Self::UrpHard,
+        Self::UrpSoft,
+        Self::HdrpPcf5,
+        Self::HdrpPcf7,
     ];
 
     /// The word for it in recipes.
@@ -73,6 +130,16 @@ impl PresetName {
             Self::Evsm2 => "evsm2",
             Self::Evsm4 => "evsm4",
             Self::Msm => "msm",
+            Self::ThreePcf => "three-pcf",
+            Self::BabylonNone => "babylon-none",
+            Self::BabylonPcf => "babylon-pcf",
+            Self::FilamentPcf => "filament-pcf",
+            Self::BevyGaussian => "bevy-gaussian",
+            Self::GodotPcf => "godot-pcf",
+            Self::UrpHard => "urp-hard",
+            Self::UrpSoft => "urp-soft",
+            Self::HdrpPcf5 => "hdrp-pcf5",
+            Self::HdrpPcf7 => "hdrp-pcf7",
         }
     }
 
@@ -94,7 +161,43 @@ impl PresetName {
             Self::Evsm2 => "exponential variance shadow maps of two channels (Lauritzen & McCool 2008)",
             Self::Evsm4 => "the same of four channels",
             Self::Msm => "moment shadow maps (Peters & Klein 2015)",
+            Self::ThreePcf => "three.js, PCFShadowMap: five bilinear comparisons on a disc, over back faces",
+            Self::BabylonNone => "Babylon.js, FILTER_NONE: the nearest texel",
+            Self::BabylonPcf => "Babylon.js, FILTER_PCF, high quality: Castaño's 5 x 5 texels",
+            Self::FilamentPcf => "Filament, PCF: Castaño's 3 x 3 texels",
+            Self::BevyGaussian => "Bevy, Gaussian: Castaño's 5 x 5 texels",
+            Self::GodotPcf => "Godot 4, Soft Low: four bilinear comparisons on a disc",
+            Self::UrpHard => "Unity URP, hard shadows: one bilinear comparison",
+            Self::UrpSoft => "Unity URP, soft shadows, medium quality: a tent of 5 x 5 texels",
+            Self::HdrpPcf5 => "Unity HDRP, medium quality, spot lights: a tent of 5 x 5 texels",
+            Self::HdrpPcf7 => "Unity HDRP, medium quality, directional lights: a tent of 7 x 7 texels",
         }
+    }
+
+    /// The engine whose default it is; `None` for the papers' and our own.
+    #[must_use]
+    pub fn engine(self) -> Option<Engine> {
+        self.by_engine().map(|by| by.bias.engine())
+    }
+
+    /// What an engine's preset is made of.
+    pub(crate) const fn by_engine(self) -> Option<ByEngine> {
+        use EngineBias as Bias;
+        use PatternName::{AreaTent, Castano5, Centre, Tent, Vogel};
+        let (bias, pattern, half, samples) = match self {
+            Self::ThreePcf => (Bias::Three, Vogel, 2.0, 5),
+            Self::BabylonNone => (Bias::Babylon, Centre, 0.0, 1),
+            Self::BabylonPcf => (Bias::BabylonPcf, Castano5, 3.0, 1),
+            Self::FilamentPcf => (Bias::Filament, Tent, 2.0, 1),
+            Self::BevyGaussian => (Bias::Bevy, Castano5, 3.0, 1),
+            Self::GodotPcf => (Bias::Godot, Vogel, 3.0, 4),
+            Self::UrpHard => (Bias::Urp, Tent, 1.0, 1),
+            Self::UrpSoft => (Bias::UrpSoft, AreaTent, 3.0, 1),
+            Self::HdrpPcf5 => (Bias::Hdrp, AreaTent, 3.0, 1),
+            Self::HdrpPcf7 => (Bias::Hdrp, AreaTent, 4.0, 1),
+            _ => return None,
+        };
+        Some(ByEngine { bias, pattern, half, samples })
     }
 
     /// The one with this [`name`](Self::name); `None` for any other text.
@@ -121,6 +224,17 @@ impl PresetName {
             Self::Evsm2 => presets::evsm2().expects,
             Self::Evsm4 => presets::evsm4().expects,
             Self::Msm => presets::msm().expects,
+            // What single-sided materials cast with there.
+            Self::ThreePcf => &[Stored::BackFace],
+            Self::BabylonNone
+            | Self::BabylonPcf
+            | Self::FilamentPcf
+            | Self::BevyGaussian
+            | Self::GodotPcf
+            | Self::UrpHard
+            | Self::UrpSoft
+            | Self::HdrpPcf5
+            | Self::HdrpPcf7 => &[Stored::First],
         }
     }
 }

@@ -5,14 +5,14 @@ use crate::{PresetName, Recipe};
 use umbrage_plane::glam::Vec2;
 use umbrage_plane::{Bias, Receiver, View};
 use umbrage_shadow::williams::Lookup;
-use umbrage_shadow::{Biased, MapRadius, Softness};
+use umbrage_shadow::{Biased, MapRadius, Moved, Softness};
 
 /// From where a filter looks to the sample of the texel that it meets there, at most.
 const TO_SAMPLE: f32 = 0.5;
 
 impl Recipe {
-    /// The same recipe with all its biases set to zero: the bias, or the two of a range, and the base and the slope of a bias cone.
-    /// `None` where it has none, so that it would stay as it is.
+    /// The same recipe with all its biases set to zero: the bias, or the two of a range, the base and the slope of a bias cone, what grows with the slope, the
+    /// offset along the normal, or an engine's default. `None` where it has none, so that it would stay as it is.
     ///
     /// What a tangent plane allows for rounding (`slack`) and what `auto` allows for a sample's width are no biases.
     ///
@@ -26,14 +26,42 @@ impl Recipe {
     /// ```
     #[must_use]
     pub fn unbiased(&self) -> Option<Self> {
-        let has_cone = self.values.depth == DepthName::Cone;
-        let slope = if has_cone { 0.0 } else { self.values.slope };
-        let without = Values { biased: Biased::constant(Bias::ZERO), slope, ..self.values };
+        let values = &self.values;
+        let without = Values { biased: Biased::constant(Bias::ZERO), ..*values };
+        // What the compared depth adds by itself.
+        let (without, own) = match values.depth {
+            DepthName::Cone => (Values { slope: 0.0, ..without }, values.slope != 0.0),
+            DepthName::SlopeScaled => {
+                (Values { scaled: values.scaled.with_slope(0.0), ..without }, values.scaled.slope != 0.0)
+            }
+            DepthName::NormalOffset => {
+                (Values { offset: values.offset.with_texels(0.0), ..without }, values.offset.texels != 0.0)
+            }
+            DepthName::Engine(_) => (Values { depth: DepthName::Constant, ..without }, true),
+            DepthName::Constant | DepthName::Plane => (without, false),
+        };
         let zero =
             |bias: Bias| matches!(bias, Bias::World(b) | Bias::Texels(b) | Bias::Steps(b) | Bias::Map(b) if b == 0.0);
-        let Biased { low, high, .. } = self.values.biased;
-        let is_biased = !zero(low) || !zero(high) || (has_cone && self.values.slope != 0.0);
+        let Biased { low, high, .. } = values.biased;
+        let is_biased = !zero(low) || !zero(high) || own;
         is_biased.then_some(Self { values: without, ..*self })
+    }
+
+    /// How far before a plane of a slope what is compared lies at an axial distance, beyond [`bias`](Self::bias): by a bias that grows with the slope, by a
+    /// normal offset, or by an engine's default. World units along the light's axis; 0 for other depths.
+    #[must_use]
+    pub fn lift(&self, light: &View, zeta: f64, slope: f64) -> f64 {
+        let texel = light.texel_world(zeta).max_element();
+        let (scaled, offset) = (self.values.scaled, self.values.offset);
+        match self.values.depth {
+            DepthName::SlopeScaled => (f64::from(scaled.slope) * texel * slope).min(f64::from(scaled.most)),
+            DepthName::NormalOffset => {
+                let facing = 1.0 / slope.hypot(1.0);
+                f64::from(offset.texels) * texel * offset.growth.of(facing) / facing
+            }
+            DepthName::Engine(bias) => bias.lift(light, zeta, slope),
+            DepthName::Constant | DepthName::Plane | DepthName::Cone => 0.0,
+        }
     }
 
     /// Half-extents of the box about a receiver's place in the map, texels, within which lies everything that the filter looks at for it,
@@ -66,7 +94,17 @@ impl Recipe {
             }
             _ => scaled(values.res_factor, values.min_size),
         };
-        half + TO_SAMPLE
+        half + self.shift(view, receiver) + TO_SAMPLE
+    }
+
+    /// How far a receiver is looked up from its own place, texels.
+    fn shift(&self, view: &View, receiver: &Receiver) -> Vec2 {
+        let along = match self.values.depth {
+            DepthName::NormalOffset => self.values.offset.world(receiver),
+            DepthName::Engine(bias) => bias.of(view, receiver).normal,
+            DepthName::Constant | DepthName::Plane | DepthName::Cone | DepthName::SlopeScaled => 0.0,
+        };
+        if along == 0.0 { Vec2::ZERO } else { Moved::by(view, receiver, along, 0.0).shift.abs() }
     }
 }
 

@@ -23,6 +23,26 @@ use umbrage_shadow::Shadow;
 /// | `ordinary` | first | depths filtered first: the control |
 /// | `vsm`, `esm`, `evsm2`, `evsm4`, `msm` | first, filtered beforehand | inequalities for moments of the depths |
 ///
+/// What engines do when nobody sets anything, as far as their sources say: percentage closer in a few texels about the receiver, whatever its footprint, with the
+/// engine's own default bias. That depends on the light's projection, on its map and on each receiver ([`umbrage_engines`]), so that no number of `bias` is the
+/// same; `depth=godot` gives it to any other filter. One unit of the scene is one of the engine's, and the light's near and far planes are taken for the engine's own.
+///
+/// | preset | stored | kernel | bias | sources read |
+/// |---|---|---|---|---|
+/// | `three-pcf` | back-face | [`Vogel`](umbrage_sample::Vogel), 5 samples, radius 1 | `three` | three.js r187, `shadowmap_pars_fragment.glsl.js` |
+/// | `babylon-none` | first | nearest texel | `babylon` | Babylon.js 9.35, `shadowsFragmentFunctions.js` |
+/// | `babylon-pcf` | first | [`Castano`](umbrage_sample::Castano), 5 × 5 | `babylon-pcf` | the same |
+/// | `filament-pcf` | first | [`Tent`](umbrage_sample::Tent) of 2 texels, which is Castaño's 3 × 3 | `filament` | Filament, `surface_shadowing.fs` |
+/// | `bevy-gaussian` | first | [`Castano`](umbrage_sample::Castano), 5 × 5 | `bevy` | Bevy 0.20.1, `shadow_sampling.wesl` |
+/// | `godot-pcf` | first | [`Vogel`](umbrage_sample::Vogel), 4 samples, radius 2 | `godot` | Godot 4, `scene_forward_lights_inc.glsl` |
+/// | `urp-hard` | first | [`Tent`](umbrage_sample::Tent) of 1 texel, one bilinear comparison | `urp` | Unity URP, `Shadows.hlsl` |
+/// | `urp-soft` | first | [`AreaTent`](umbrage_sample::AreaTent), 5 × 5 | `urp-soft` | the same and `ShadowSamplingTent.hlsl` |
+/// | `hdrp-pcf5`, `hdrp-pcf7` | first | [`AreaTent`](umbrage_sample::AreaTent), 5 × 5 for spot lights, 7 × 7 for directional ones | `hdrp` | Unity HDRP, `HDShadowAlgorithms.hlsl`, and the same |
+///
+/// Where a unit of the depth format is left open, the least is taken. Normals are geometric, where engines may take shading normals. Cascades, borders of atlases and
+/// fades at a map's end are not in them. HDRP's PCSS is not here: its filter, the nearest blocker of a cone of samples, is another than `fernando`; nor is
+/// `VSMShadowMap` of three.js, whose steps of a probability differ from `vsm`.
+///
 /// Units: `t` texels, `w` world units, `s` depth steps, `m` fractions of the range from near to far as screen depth has it, `%` of the map's sides.
 ///
 #[doc = include_str!("fields.md")]

@@ -1,12 +1,19 @@
 //! What is read, what is refused, and that what is written reads as the same.
 
-use crate::values::{DepthName, PatternName, Rule, Values};
+use crate::engine::{Depth, EngineBias};
+use crate::pattern::PatternName;
+use crate::values::{DepthName, Rule, Values};
 use crate::{Field, Kind, PresetName, Recipe, help, markdown};
 use proptest::prelude::*;
-use umbrage_plane::Bias;
+use umbrage_engines::{Conditions, WorldBias};
+use umbrage_plane::glam::{DVec3, UVec2};
+use umbrage_plane::{Bias, Receiver, SurfacePoint, TexelRect, View};
 use umbrage_sample::Jittered;
 use umbrage_shadow::williams::{Dither, DitherLaw, Guard, Lookup};
-use umbrage_shadow::{AnyDepth, BiasCone, Biased, MapRadius, Opacity, Radius, Softness, Spread};
+use umbrage_shadow::{
+    AnyDepth, BiasCone, Biased, Compared, MapRadius, NormalOffset, OffsetGrowth, Opacity, Radius, ReceiverDepth,
+    SlopeScaled, Softness, Spread,
+};
 
 fn read(text: &str) -> Values {
     text.parse::<Recipe>().unwrap().values
@@ -25,7 +32,7 @@ fn r87_12_every_field_is_read() {
     let depth = Biased::default().with_low(Bias::Texels(0.2)).with_high(Bias::Texels(0.3)).with_spread(Spread::Ramp);
     assert_eq!((values.jittered, values.res_factor, values.min_size), (pattern, 2.0, 1.0));
     assert_eq!((values.depth, values.biased), (DepthName::Constant, depth));
-    assert_eq!(values.compared(), AnyDepth::Biased(depth));
+    assert_eq!(values.compared(), Depth::Any(AnyDepth::Biased(depth)));
     let values = read("williams78,bias=3m,guard=2,dither=1,dither-law=uniforms,dither-depth=0.5");
     let dither = Dither::default().with_amplitude(1.0).with_law(DitherLaw::ThreeUniforms).with_depth(0.5);
     assert_eq!((values.biased.low, values.dither), (Bias::Map(3.0), dither));
@@ -41,6 +48,10 @@ fn r87_12_every_field_is_read() {
         ("tent", PatternName::Tent),
         ("centre", PatternName::Centre),
         ("disc", PatternName::Disc),
+        ("castano5", PatternName::Castano5),
+        ("castano7", PatternName::Castano7),
+        ("area-tent", PatternName::AreaTent),
+        ("vogel", PatternName::Vogel),
     ];
     for (name, pattern) in patterns {
         assert_eq!(read(&format!("reeves87,pattern={name}")).pattern, pattern);
@@ -80,7 +91,93 @@ fn presets_choose_what_is_stored_and_how_it_is_asked() {
     let mixed = read("burley,stored=midpoint,ratio=0.25,depth=cone,slope=1");
     assert_eq!((mixed.rule, mixed.midpoint.ratio), (Rule::Midpoint, 0.25));
     assert_eq!((mixed.depth, mixed.slope), (DepthName::Cone, 1.0));
-    assert_eq!(read("woo92,depth=cone,pattern=disc").compared(), AnyDepth::Cone(BiasCone::default()));
+    assert_eq!(read("woo92,depth=cone,pattern=disc").compared(), Depth::Any(BiasCone::default().into()));
+}
+
+#[test]
+fn biases_that_grow_with_the_slope_and_offsets_are_read() {
+    let scaled = read("reeves87,depth=slope-scaled,bias=0.1t,slope-scale=2.5,clamp=3").compared();
+    let wanted = SlopeScaled::default().with_constant(Bias::Texels(0.1)).with_slope(2.5).with_most(3.0);
+    assert_eq!(scaled, Depth::Any(wanted.into()));
+    let offset = read("burley,depth=normal-offset,bias=0,normal-offset=0.75,offset-growth=sine").compared();
+    let wanted = NormalOffset::default().with_texels(0.75).with_growth(OffsetGrowth::Sine).with_bias(Bias::ZERO);
+    assert_eq!(offset, Depth::Any(wanted.into()));
+    assert_eq!(read("woo92,depth=godot").compared(), Depth::Engine(EngineBias::Godot));
+    assert_eq!(refused("godot-pcf,bias=1t"), "bias = \"1t\": expected 0, with an engine's own bias as depth");
+    assert_eq!(
+        read("godot-pcf,depth=constant,bias=1t").compared(),
+        Depth::Any(Biased::constant(Bias::Texels(1.0)).into())
+    );
+    let unbiased = |text: &str| text.parse::<Recipe>().unwrap().unbiased().map(|recipe| recipe.to_string());
+    for (text, wanted) in [
+        ("godot-pcf", Some("godot-pcf,depth=constant")),
+        ("woo92,depth=normal-offset", Some("woo92,depth=normal-offset,normal-offset=0")),
+        ("woo92,depth=slope-scaled,slope-scale=0", None),
+        ("woo92,depth=slope-scaled,bias=1t,slope-scale=0", Some("woo92,depth=slope-scaled,slope-scale=0")),
+        ("burley", Some("burley,slope=0")),
+        ("woo92", None),
+    ] {
+        assert_eq!(unbiased(text).as_deref(), wanted, "{text}");
+    }
+}
+
+/// A light over a floor, parallel or not, and a receiver in it that is tilted.
+fn lit(spot: bool) -> (View, Receiver) {
+    let (eye, size) = (DVec3::Y * 12.0, UVec2::splat(512));
+    let view = if spot {
+        View::perspective(eye, DVec3::ZERO, DVec3::NEG_Z, 0.9, 0.5, 40.0, size)
+    } else {
+        View::orthographic(eye, DVec3::ZERO, DVec3::NEG_Z, 10.0, 0.5, 40.0, size)
+    };
+    let view = view.unwrap();
+    let at = SurfacePoint::at(DVec3::new(1.5, 0.5, -1.0), DVec3::new(0.4, 0.8, 0.3).normalize().as_vec3());
+    let receiver = view.receiver(&at).unwrap();
+    (view, receiver)
+}
+
+/// What is compared is the receiver moved by what the engine's own formulas give, and the place with it.
+#[test]
+fn engines_presets_have_their_engines_default_bias() {
+    for (spot, preset) in [true, false].into_iter().flat_map(|spot| PresetName::ENGINES.map(|preset| (spot, preset))) {
+        let (view, seen) = lit(spot);
+        let conditions = Conditions::of(&view, &seen).unwrap();
+        let conditions = match preset {
+            PresetName::BabylonPcf => conditions.with_depth_texture(true),
+            PresetName::UrpSoft => conditions.with_filter_radius(Some(2.5)),
+            _ => conditions,
+        };
+        let engine = preset.engine().unwrap();
+        assert!(preset.name().starts_with(engine.name()), "{preset:?}");
+        let given = engine.world(&[], &conditions).unwrap().least;
+        let depth = Values::of(preset).compared();
+        let prepared = depth.prepared(&view, &seen);
+        let rect = TexelRect::of_size(view.size());
+        let found = prepared.bounds(rect);
+        // Along the normal, then toward the light.
+        let moved = seen.eye + seen.normal * given.normal;
+        let steps = given.slope * conditions.texel * conditions.slope;
+        let wanted = -moved.z - given.constant - steps;
+        assert_eq!(found.min, found.max);
+        assert!((f64::from(found.min) - wanted).abs() < 1e-5, "{preset:?}: {found:?} instead of {wanted}");
+        let place = prepared.region(&seen.footprint).centre.as_dvec2();
+        assert!(place.abs_diff_eq(view.eye_to_texel(moved), 1e-3), "{preset:?}: {place}");
+        // How far before the receiver's own plane that is.
+        let recipe = Recipe::from(preset);
+        let zeta = -seen.eye.z;
+        let on_axis = Conditions::on_axis(&view, zeta).unwrap().with_light_at(0.6);
+        let lift = recipe.lift(&view, zeta, 0.8 / 0.6);
+        if !matches!(preset, PresetName::BabylonPcf | PresetName::UrpSoft) {
+            let wanted = engine.world(&[], &on_axis).unwrap().least.along_axis(&on_axis).unwrap();
+            assert!((lift - wanted).abs() < 1e-9, "{preset:?}: {lift} instead of {wanted}");
+        }
+        let reach = recipe.reach(&view, &seen) - recipe.unbiased().unwrap().reach(&view, &seen);
+        let away = (view.eye_to_texel(moved) - seen.texel).abs().as_vec2();
+        assert!(reach.abs_diff_eq(away, 1e-3), "{preset:?}: {reach} instead of {away}");
+    }
+    // Not all of them are nothing, and none is of a receiver that faces away.
+    let (view, seen) = lit(false);
+    assert!(EngineBias::Bevy.of(&view, &seen).normal > 0.0);
+    assert_eq!(EngineBias::Bevy.of(&view, &Receiver { normal: -seen.normal, ..seen }), WorldBias::ZERO);
 }
 
 #[test]
@@ -103,7 +200,8 @@ fn b06_every_field_is_read_and_what_contradicts_is_refused() {
     assert_eq!((found.search.num_samples, found.blur.num_samples, found.blur.rotate), (16, 64, false));
     assert!(found.search.half_offset && found.blur.half_offset && !found.search.rotate);
     assert_eq!(found.opacity, Opacity::default().with_near(0.9).with_far(0.2).with_fade(30.0).with_gamma(0.5));
-    assert_eq!(found.compared(), AnyDepth::Cone(BiasCone::default().with_base(0.1).with_radius(Radius::Nominal)));
+    let cone = BiasCone::default().with_base(0.1).with_radius(Radius::Nominal);
+    assert_eq!(found.compared(), Depth::Any(cone.into()));
     let light = read("burley,light=2,nearest=5,depth=plane");
     assert_eq!(light.softness(), Softness::Light { radius: 2.0, nearest: 5.0 });
     assert_eq!(read("burley,depth=plane,nearest=5,light=2"), light, "in any order");

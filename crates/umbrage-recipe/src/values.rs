@@ -1,4 +1,7 @@
+use crate::engine::{Depth, EngineBias};
 use crate::moments::MomentValues;
+use crate::pattern::PatternName;
+use crate::preset::ByEngine;
 use crate::{PresetName, RecipeError};
 use umbrage_bake::{Deep, Refinement};
 use umbrage_depth::{Midpoint, SameSurface, Stored};
@@ -6,8 +9,8 @@ use umbrage_plane::Bias;
 use umbrage_sample::{Disc, Jittered};
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
 use umbrage_shadow::{
-    AnyDepth, BiasCone, Biased, Conditional, DualPlane, MapRadius, OccluderFalloff, OnPlane, Opacity, Pcf, Radius,
-    Soft, Softness, Spread, VirtualWhen, Williams, presets,
+    AnyDepth, BiasCone, Biased, Conditional, DualPlane, MapRadius, NormalOffset, OccluderFalloff, OnPlane, Opacity,
+    Pcf, Radius, SlopeScaled, Soft, Softness, Spread, VirtualWhen, Williams, presets,
 };
 
 /// Which surface of a texel is stored, and how it is found.
@@ -34,27 +37,16 @@ impl Rule {
     }
 }
 
-/// Where one looks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PatternName {
-    Jittered,
-    Table,
-    Uniform,
-    Gaussian,
-    Inside,
-    Warp,
-    Every,
-    Tent,
-    Centre,
-    Disc,
-}
-
 /// Which depth is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthName {
     Constant,
     Plane,
     Cone,
+    SlopeScaled,
+    NormalOffset,
+    /// An engine's own default.
+    Engine(EngineBias),
 }
 
 /// Maps of at most so many texels along their larger side are refined more finely by themselves.
@@ -87,6 +79,10 @@ pub struct Values {
     pub biased: Biased,
     pub slope: f32,
     pub radius: Radius,
+    /// Its constant part is `biased`'s.
+    pub scaled: SlopeScaled,
+    /// Its bias is `biased`'s.
+    pub offset: NormalOffset,
     pub slack: f32,
     pub reach: f32,
     pub when: VirtualWhen,
@@ -119,6 +115,9 @@ impl Values {
     /// As a preset has them.
     pub fn of(preset: PresetName) -> Self {
         let parts = Self::common();
+        if let Some(by) = preset.by_engine() {
+            return parts.by_engine(preset, &by);
+        }
         match preset {
             PresetName::Auto => {
                 Self { rule: Rule::Facets, biased: Biased::constant(Bias::ZERO), dual: presets::auto().filter, ..parts }
@@ -155,7 +154,18 @@ impl Values {
                 let moments = MomentValues::of(preset);
                 Self { biased: Biased::constant(moments.filter.bias), moments, ..parts }
             }
+            _ => parts,
         }
+    }
+
+    /// An engine's kernel about the receiver, and its default bias.
+    fn by_engine(self, preset: PresetName, by: &ByEngine) -> Self {
+        let ByEngine { bias, pattern, half, samples } = *by;
+        let rule = if preset.expects() == [Stored::BackFace] { Rule::BackFace } else { Rule::First };
+        let jittered = self.jittered.with_num_samples(samples);
+        let biased = Biased::constant(Bias::ZERO);
+        let depth = DepthName::Engine(bias);
+        Self { rule, pattern, jittered, res_factor: 0.0, min_size: half, depth, biased, ..self }
     }
 
     /// What presets have that do not say otherwise.
@@ -178,6 +188,8 @@ impl Values {
             biased: pcf.depth,
             slope: cone.slope,
             radius: cone.radius,
+            scaled: SlopeScaled::default(),
+            offset: NormalOffset::default(),
             slack: plane.slack,
             reach: plane.reach,
             when: conditional.when,
@@ -245,15 +257,19 @@ impl Values {
     }
 
     /// The depth that is compared.
-    pub fn compared(&self) -> AnyDepth {
-        match self.depth {
+    pub fn compared(&self) -> Depth {
+        let any: AnyDepth = match self.depth {
             DepthName::Constant => self.biased.into(),
             DepthName::Plane => self.plane().into(),
             DepthName::Cone => {
                 let base = if let Bias::World(base) = self.biased.low { base } else { 0.0 };
                 BiasCone::default().with_base(base).with_slope(self.slope).with_radius(self.radius).into()
             }
-        }
+            DepthName::SlopeScaled => self.scaled.with_constant(self.biased.low).into(),
+            DepthName::NormalOffset => self.offset.with_bias(self.biased.low).into(),
+            DepthName::Engine(bias) => return Depth::Engine(bias),
+        };
+        Depth::Any(any)
     }
 
     /// What only all fields together can show; `given` are the names of those that were written.
@@ -265,13 +281,13 @@ impl Values {
             return Err(RecipeError::value("same", same, "surface, with several sub-samples over midpoints"));
         }
         match preset {
-            PresetName::Reeves87 | PresetName::Reeves87Recommended | PresetName::Woo92 => self.check_closer()?,
             PresetName::Burley | PresetName::Fernando => self.check_soft(given)?,
             PresetName::Auto => return self.check_auto(),
             PresetName::Williams78 | PresetName::WangMolnar94 | PresetName::Ordinary => return Ok(()),
             PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
                 return Ok(());
             }
+            _ => self.check_closer()?,
         }
         self.check_depth()
     }
@@ -330,6 +346,9 @@ impl Values {
         }
         if self.depth == DepthName::Cone && !matches!(low, Bias::World(_)) {
             return Err(RecipeError::value("bias", &written(), "world units, with depth=cone"));
+        }
+        if matches!(self.depth, DepthName::Engine(_)) && low != Bias::ZERO {
+            return Err(RecipeError::value("bias", &written(), "0, with an engine's own bias as depth"));
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 use crate::{
-    Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Table, Taps, Tent,
-    Uniform,
+    AreaTent, Castano, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern,
+    Table, Taps, Tent, Uniform, Vogel,
 };
 use fearless_simd::Simd;
 use umbrage_plane::Footprint;
@@ -32,6 +32,12 @@ pub enum AnyPattern {
     InsideQuadWarp(InsideQuadWarp),
     /// [`Disc`].
     Disc(Disc),
+    /// [`Castano`].
+    Castano(Castano),
+    /// [`AreaTent`].
+    AreaTent(AreaTent),
+    /// [`Vogel`].
+    Vogel(Vogel),
 }
 
 /// The same expression over whichever pattern it is.
@@ -48,6 +54,9 @@ macro_rules! each {
             AnyPattern::InsideQuadReject($pattern) => $answer,
             AnyPattern::InsideQuadWarp($pattern) => $answer,
             AnyPattern::Disc($pattern) => $answer,
+            AnyPattern::Castano($pattern) => $answer,
+            AnyPattern::AreaTent($pattern) => $answer,
+            AnyPattern::Vogel($pattern) => $answer,
         }
     };
 }
@@ -62,7 +71,21 @@ macro_rules! from {
     };
 }
 
-from!(Centre, EveryTexel, Tent, Uniform, Gaussian, Jittered, Table, InsideQuadReject, InsideQuadWarp, Disc);
+from!(
+    Centre,
+    EveryTexel,
+    Tent,
+    Uniform,
+    Gaussian,
+    Jittered,
+    Table,
+    InsideQuadReject,
+    InsideQuadWarp,
+    Disc,
+    Castano,
+    AreaTent,
+    Vogel
+);
 
 impl Pattern for AnyPattern {
     #[inline(always)]

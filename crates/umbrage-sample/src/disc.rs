@@ -93,7 +93,7 @@ impl Pattern for Disc {
 ///
 /// Taylor's polynomials about the nearest quarter turn, because they need nothing but operations that every machine rounds alike.
 #[inline(always)]
-fn turned<S: Simd>(simd: S, turns: f32x16<S>) -> (f32x16<S>, f32x16<S>) {
+pub(crate) fn turned<S: Simd>(simd: S, turns: f32x16<S>) -> (f32x16<S>, f32x16<S>) {
     let quarters = (turns * 4.0 + 0.5).floor();
     let angle = (turns - quarters * 0.25) * std::f32::consts::TAU;
     let quarter = quarters - (quarters * 0.25).floor() * 4.0;

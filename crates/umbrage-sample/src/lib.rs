@@ -14,6 +14,9 @@
 //! | [`Table`] | | the same with stored numbers, a hash for sixteen taps |
 //! | [`InsideQuadReject`], [`InsideQuadWarp`] | Reeves 1987, Fig. 3d | inside the region's quadrilateral |
 //! | [`Disc`] | Burley 2006 | Hammersley points on a disc |
+//! | [`Castano`] | Castaño 2013; Bevy, Babylon.js | every texel, weighted by a bell of straight lines |
+//! | [`AreaTent`] | Unity's pipelines | every texel, weighted by the area of a triangle over it |
+//! | [`Vogel`] | three.js, Godot | bilinear comparisons on a disc |
 //! | [`AnyPattern`] | | any of them, chosen when the program runs |
 //!
 //! ```
@@ -36,6 +39,8 @@
 #![warn(missing_debug_implementations)]
 
 mod any;
+mod area_tent;
+mod castano;
 mod centre;
 mod disc;
 mod every_texel;
@@ -48,8 +53,11 @@ mod table;
 mod taps;
 mod tent;
 mod uniform;
+mod vogel;
 
 pub use any::AnyPattern;
+pub use area_tent::AreaTent;
+pub use castano::Castano;
 pub use centre::Centre;
 pub use disc::{Density, Disc, hammersley, radical_inverse, radical_inverses};
 pub use every_texel::EveryTexel;
@@ -61,3 +69,4 @@ pub use table::Table;
 pub use taps::{Pattern, Tap, Taps, each_tap};
 pub use tent::Tent;
 pub use uniform::Uniform;
+pub use vogel::Vogel;

@@ -17,20 +17,29 @@ impl Pattern for Tent {
 
     #[inline(always)]
     fn taps<S: Simd>(&self, simd: S, region: &Footprint, key: Key, mut each: impl FnMut(&Taps<S>)) {
-        let side = |at: f32x16<S>, centre: f32, half: f32| {
-            let share = if half > 0.5 { (at - centre).abs() / half } else { f32x16::splat(simd, 0.0) };
-            (-share + 1.0).max(f32x16::splat(simd, 0.0))
-        };
+        let side = |away: f32x16<S>, half: f32| (-(away / half) + 1.0).max(f32x16::splat(simd, 0.0));
         EveryTexel.taps(
             simd,
             region,
             key,
             #[inline(always)]
-            |taps| {
-                let weight =
-                    side(taps.x, region.centre.x, region.half.x) * side(taps.y, region.centre.y, region.half.y);
-                each(&Taps { weight, ..*taps });
-            },
+            |taps| each(&weigh(simd, region, taps, side)),
         );
     }
+}
+
+/// Taps with the product of what `side` gives for their distances from the region's centre along x and y, and the half-extents there. An axis of at most one
+/// texel's extent counts as 1.
+#[inline(always)]
+pub(crate) fn weigh<S: Simd>(
+    simd: S,
+    region: &Footprint,
+    taps: &Taps<S>,
+    side: impl Fn(f32x16<S>, f32) -> f32x16<S>,
+) -> Taps<S> {
+    let along = |at: f32x16<S>, centre: f32, half: f32| {
+        if half > 0.5 { side((at - centre).abs(), half) } else { f32x16::splat(simd, 1.0) }
+    };
+    let weight = along(taps.x, region.centre.x, region.half.x) * along(taps.y, region.centre.y, region.half.y);
+    Taps { weight, ..*taps }
 }

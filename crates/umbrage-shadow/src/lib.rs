@@ -41,9 +41,12 @@ mod probe;
 mod query;
 mod surfaces;
 
-pub use depths::{AnyDepth, BiasCone, Biased, Compared, OnPlane, Radius, ReceiverDepth, Spread};
+pub use depths::{
+    AnyDepth, BiasCone, Biased, Compared, Moved, NormalOffset, OffsetGrowth, OnPlane, Radius, ReceiverDepth,
+    SlopeScaled, Spread,
+};
 pub use explanation::{Explanation, Question};
-pub use fearless_simd::Simd;
+pub use fearless_simd::{Simd, f32x16};
 pub use filters::{
     Conditional, DualPlane, FilteredDepth, FromMoments, IntegerFirst, MapRadius, OccluderFalloff, Opacity, Pcf, Soft,
     Softness, VirtualWhen, Williams, integer_first, moments, williams,

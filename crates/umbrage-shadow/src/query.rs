@@ -146,8 +146,9 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
     /// It never differs from what [`share`](Self::share) answers.
     #[inline(always)]
     pub fn settled(&mut self, region: &Footprint, depth: &impl ReceiverDepth) -> Option<f32> {
-        let area = Area::of(self.simd, self.view(), region);
-        self.settled_in(area, &depth.prepared(self.view(), self.receiver))
+        let compared = depth.prepared(self.view(), self.receiver);
+        let area = Area::of(self.simd, self.view(), &compared.region(region));
+        self.settled_in(area, &compared)
     }
 
     #[inline(always)]
@@ -175,8 +176,9 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         depth: &impl ReceiverDepth,
         cull: bool,
     ) -> f32 {
-        let area = Area::of(self.simd, self.view(), region);
         let compared = depth.prepared(self.view(), self.receiver);
+        let region = &compared.region(region);
+        let area = Area::of(self.simd, self.view(), region);
         let settled = if cull { self.settled_in(area, &compared) } else { None };
         settled.unwrap_or_else(
             #[inline(always)]
@@ -203,6 +205,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         behind: impl FnMut(&mut P, f32x16<S>, f32x16<S>, u32) -> u32,
     ) -> f32 {
         let compared = depth.prepared(self.view(), self.receiver);
+        let region = &compared.region(region);
         self.share_in(Area::of(self.simd, self.view(), region), region, (pattern, &compared), behind)
     }
 
@@ -303,6 +306,8 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         mut f: impl FnMut(&Seen<'_>),
     ) {
         let (simd, map, view) = (self.simd, self.map, self.view());
+        let compared = depth.prepared(view, self.receiver);
+        let region = &compared.region(region);
         let Area { rect, inside } = Area::of(simd, view, region);
         if P::EXPLAINS {
             self.probe.asked();
@@ -312,7 +317,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         let looked = Self::visit(
             (simd, self.key),
             region,
-            (pattern, &depth.prepared(view, self.receiver)),
+            (pattern, &compared),
             #[inline(always)]
             |taps, compared| {
                 let stored = look::<_, _, P>(simd, map, rect, taps);
@@ -337,17 +342,19 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         self.count(looked);
     }
 
-    /// The nearest surfaces under sixteen taps at a time, whatever passes them: `f` is given the taps, the compared and the stored
-    /// depths. Rules are left to the caller.
+    /// The nearest surfaces under sixteen taps at a time, whatever passes them: `f` is given the region where they lie, the taps, the
+    /// compared and the stored depths. Rules are left to the caller.
     #[inline(always)]
     pub(crate) fn nearest(
         &mut self,
         region: &Footprint,
         pattern: &impl Pattern,
         depth: &impl ReceiverDepth,
-        mut f: impl FnMut(&Taps<S>, f32x16<S>, f32x16<S>),
+        mut f: impl FnMut(&Footprint, &Taps<S>, f32x16<S>, f32x16<S>),
     ) {
         let (simd, map, view) = (self.simd, self.map, self.view());
+        let compared = depth.prepared(view, self.receiver);
+        let region = &compared.region(region);
         let Area { rect, .. } = Area::of(simd, view, region);
         let probe = &mut *self.probe;
         if P::EXPLAINS {
@@ -356,7 +363,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         let looked = Self::visit(
             (simd, self.key),
             region,
-            (pattern, &depth.prepared(view, self.receiver)),
+            (pattern, &compared),
             #[inline(always)]
             |taps, compared| {
                 let stored = look::<_, _, P>(simd, map, rect, taps);
@@ -365,7 +372,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
                     let dark = std::array::from_fn(|i| (nearer >> i & 1) as f32);
                     report(probe, (|_| None, false), &{ *taps }, [&compared.into(), &stored.into(), &dark]);
                 }
-                f(taps, compared, stored);
+                f(region, taps, compared, stored);
             },
         );
         self.count(looked);

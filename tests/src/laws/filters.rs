@@ -5,12 +5,13 @@ use crate::outside::{Pcss, Variance};
 use umbrage_depth::{DepthMap, Map, MomentMap, Moments};
 use umbrage_plane::Bias;
 use umbrage_sample::{
-    AnyPattern, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Table, Tent, Uniform,
+    AnyPattern, AreaTent, Castano, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered,
+    Table, Tent, Uniform, Vogel,
 };
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
 use umbrage_shadow::{
-    AnyDepth, BiasCone, Biased, Conditional, DualPlane, FilteredDepth, FromMoments, IntegerFirst, MapRadius, OnPlane,
-    Opacity, Pcf, Radius, Soft, Softness, VirtualWhen, Williams, presets,
+    AnyDepth, BiasCone, Biased, Conditional, DualPlane, FilteredDepth, FromMoments, IntegerFirst, MapRadius,
+    NormalOffset, OnPlane, Opacity, Pcf, Radius, SlopeScaled, Soft, Softness, VirtualWhen, Williams, presets,
 };
 
 /// Each filter with the parameters that change what it does. Patterns and depths are chosen when the program runs, so that this costs
@@ -43,6 +44,9 @@ pub fn every_filter() -> Vec<Subject> {
             "a disc in a nominal cone",
             reeves(Disc::default().into(), BiasCone::default().with_radius(Radius::Nominal).into()),
         ),
+        Subject::new("castaño's bell, slope-scaled", reeves(Castano::Seven.into(), SlopeScaled::default().into())),
+        Subject::new("unity's tent, offset", reeves(AreaTent.into(), NormalOffset::default().into())),
+        Subject::new("vogel's disc", reeves(Vogel::default().into(), Biased::constant(Bias::Texels(1.0)).into())),
         Subject::new("whole units first", IntegerFirst::default()),
         Subject::new(
             "depths filtered first",
@@ -63,6 +67,7 @@ pub fn every_filter() -> Vec<Subject> {
         Subject::new("burley, rescued", burley().with_rescue(true)),
         Subject::new("burley, radii of several units", burley().with_softness(between).with_radius_gamma(0.5)),
         Subject::new("burley, by the light's size", burley().with_softness(light(0.5))),
+        Subject::new("burley, offset", burley().with_depth(AnyDepth::from(NormalOffset::default()))),
         Subject::new("burley, on the plane", burley().with_depth(AnyDepth::from(OnPlane::default().with_slack(1.0)))),
         Subject::new("a stranger's variance", Variance::default()),
         Subject::new(

@@ -5,7 +5,9 @@ use glam::IVec2;
 use umbrage_depth::{Bbox, DepthMap, Raw, Tiled};
 use umbrage_plane::{Bias, DepthRange, Receiver, TexelRect, View};
 use umbrage_sample::{EveryTexel, Taps};
-use umbrage_shadow::{BiasCone, Biased, Filter, Met, OnPlane, Probe, Query, ReceiverDepth, Spread};
+use umbrage_shadow::{
+    BiasCone, Biased, Filter, Met, NormalOffset, OnPlane, Probe, Query, ReceiverDepth, SlopeScaled, Spread,
+};
 use umbrage_tests::laws::{self, Subject, culling, every_filter};
 
 #[test]
@@ -34,6 +36,8 @@ fn r87_22_what_ranges_settle_is_what_taps_say() {
     each_storage(Biased::world(0.0, 2e-6).with_spread(Spread::Ramp));
     each_storage(OnPlane::default());
     each_storage(BiasCone::default().with_slope(1e-6));
+    each_storage(SlopeScaled::default().with_slope(1e-6));
+    each_storage(NormalOffset::default().with_texels(1e-5));
 }
 
 /// The mean of a transform at each tap; 0 without a tap.

@@ -4,10 +4,13 @@ use std::sync::Arc;
 use umbrage_depth::{DepthMap, Map, Raw, Tiled};
 use umbrage_plane::{Bias, Kind, Receiver, Sampling, Verdict, View, vectorized};
 use umbrage_sample::{
-    AnyPattern, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Table,
-    Tent, Uniform, each_tap,
+    AnyPattern, AreaTent, Castano, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key,
+    Pattern, Table, Tent, Uniform, Vogel, each_tap,
 };
-use umbrage_shadow::{AnyDepth, BiasCone, Biased, Filter, OnPlane, Pcf, Radius, ReceiverDepth, ShadowMap};
+use umbrage_shadow::{
+    AnyDepth, BiasCone, Biased, Filter, NormalOffset, OffsetGrowth, OnPlane, Pcf, Radius, ReceiverDepth, ShadowMap,
+    SlopeScaled,
+};
 use umbrage_tests::laws::{KEY, baked, receivers};
 
 fn ask<F: Filter>(filter: &F, map: &Map, receiver: &Receiver, key: Key) -> f32 {
@@ -75,15 +78,21 @@ fn r87_13_r87_22_simd_and_culling_agree_with_one_tap_at_a_time() {
     any(InsideQuadWarp::default(), &maps);
     any(Disc::default(), &maps);
     any(Tent, &maps);
+    any(Castano::Five, &maps);
+    any(Castano::Seven, &maps);
+    any(AreaTent, &maps);
+    any(Vogel::default(), &maps);
 }
 
 /// Depth ranges settle regions under a cone and on planes of any reach, and change no answer.
 #[test]
 fn r87_22_culling_changes_no_answer_whatever_depth_is_compared() {
-    let depths: [(&str, AnyDepth); 3] = [
+    let depths: [(&str, AnyDepth); 5] = [
         ("cone", BiasCone::default().into()),
         ("nominal", BiasCone::default().with_radius(Radius::Nominal).with_base(0.1).with_slope(0.5).into()),
         ("near plane", OnPlane::default().with_slack(1.0).with_reach(0.5).into()),
+        ("slope-scaled", SlopeScaled::default().with_constant(Bias::Map(1e-4)).with_most(0.5).into()),
+        ("offset", NormalOffset::default().with_texels(3.0).with_growth(OffsetGrowth::Versine).into()),
     ];
     for kind in [Kind::Axial, Kind::Screen, Kind::Radial] {
         let map = baked(kind, Sampling::Jittered { seed: 5 });
@@ -106,6 +115,8 @@ fn bounds_enclose_every_compared_depth() {
         encloses("plane", &OnPlane::biased(Bias::World(0.2)), &map);
         encloses("near plane", &OnPlane::default().with_slack(1.0).with_reach(0.25).with_bias(Bias::Texels(0.5)), &map);
         encloses("biased", &Biased::default(), &map);
+        encloses("slope-scaled", &SlopeScaled::default().with_constant(Bias::Texels(0.5)), &map);
+        encloses("offset", &NormalOffset::default().with_bias(Bias::World(0.1)), &map);
         encloses("cone", &BiasCone::default(), &map);
         encloses(
             "nominal cone",

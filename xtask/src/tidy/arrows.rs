@@ -54,7 +54,7 @@ const RULES: &[Rule] = &[
     },
     Rule {
         package: "umbrage-recipe",
-        arrows: &["umbrage-bake", "umbrage-shadow"],
+        arrows: &["umbrage-bake", "umbrage-shadow", "umbrage-engines"],
         outside: &["thiserror", "toml"],
         tests: &["glam", "proptest"],
     },

@@ -194,11 +194,16 @@ fn lists_are_complete() {
     let scenes = good(&["scenes"]).out;
     assert!(scenes.lines().any(|line| line == "gallery:spot-room") && scenes.lines().count() > 50);
     let recipes = good(&["recipes"]).out;
-    assert!(recipes.starts_with("auto ") && recipes.lines().count() == 14, "{recipes}");
+    assert!(recipes.starts_with("auto "), "{recipes}");
+    // Engines stand under a heading of their own.
+    let (papers, engines) = recipes.split_once("\n\nWhat engines do by default").expect("a heading");
+    assert_eq!((papers.lines().count(), engines.lines().count()), (14, 1 + 10), "{recipes}");
+    assert!(engines.lines().nth(1).is_some_and(|line| line.starts_with("three-pcf ")), "{recipes}");
     let woo = good(&["recipes", "woo92"]).out;
     assert!(woo.contains("samples= [16]: a whole number from 1 to 65536"), "{woo}");
     let json: serde_json::Value = serde_json::from_str(&good(&["recipes", "--json"]).out).expect("JSON");
-    assert_eq!(json[0]["name"], "auto");
+    assert_eq!((&json[0]["name"], &json[0]["engine"]), (&"auto".into(), &serde_json::Value::Null));
+    assert_eq!((&json[14]["name"], &json[14]["engine"]), (&"three-pcf".into(), &"three".into()));
     assert!(good(&["help"]).out.contains("Usage: umbrage"));
     assert!(good(&["--version"]).out.starts_with("umbrage "));
 }

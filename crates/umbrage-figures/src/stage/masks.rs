@@ -22,6 +22,17 @@ pub fn leak(picture: &Picture, truth: &Picture, border: usize) -> f64 {
     value(metrics::leak(&picture.shadow[0], &metrics::both(&dark, &of(truth, |_| true))))
 }
 
+/// The share of the same pixels that are lit by more than `most`: how far light spreads that should not be there, however faint.
+pub fn leak_area(picture: &Picture, truth: &Picture, border: usize, most: f32) -> f64 {
+    let dark = metrics::dark_mask(shadow_grid(truth), &truth.facing[0], border, 0.05);
+    let dark = metrics::both(&dark, &of(truth, |_| true));
+    let lights: Vec<f32> =
+        picture.shadow[0].iter().zip(&dark).filter(|(_, dark)| **dark).map(|(s, _)| 1.0 - s).collect();
+    let lit = lights.iter().filter(|light| **light > most).count();
+    // NaN where no pixel is dark.
+    lit as f64 / lights.len() as f64
+}
+
 /// What a picture's pixels see, as points; a pixel that sees nothing is left out.
 pub fn points_of(picture: &Picture) -> Vec<SurfacePoint> {
     let seen = (0..picture.object.len()).filter(|&i| picture.object[i] != NOTHING);

@@ -1,6 +1,6 @@
 //! Our own: every method on every scene, fault by named fault.
 
-use super::methods::{self, Judged, METHODS, Method, PUBLISHED, index, judge};
+use super::methods::{self, ENGINES, Judged, METHODS, Method, PREFILTERED, PUBLISHED, index, judge};
 use super::sheet::Sheet;
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::set::Set;
@@ -12,11 +12,18 @@ use umbrage_scene::gallery::{self, Make};
 /// One number of a judgement.
 type Fault = fn(&Judged) -> f64;
 
+/// What each scene is judged with: the papers' methods and our own, then prefiltered maps, then engines.
+const ALL: usize = METHODS.len() + PREFILTERED.len() + ENGINES.len();
+
+fn all() -> impl Iterator<Item = &'static Method> {
+    METHODS.iter().chain(&PREFILTERED).chain(&ENGINES)
+}
+
 pub const PRESETS: Figure = Figure {
     id: "U-presets",
     paper: Paper::Umbrage,
-    title: "All methods, all scenes, every fault by name",
-    claim: "No published method is free of false shadow and leaks on every scene; which fault each one has is a property of the method.",
+    title: "All presets, all scenes, every fault by name",
+    claim: "No published way to compare depths and no engine's default is free of false shadow and leaks on every scene; which fault each one has is a property of the method.",
     look: "the columns of the picture: a method has no fault only where all of its column is grey.",
     make: presets,
 };
@@ -45,18 +52,29 @@ const MOST_LEAK: f64 = 0.02;
 
 fn presets(cx: &Context) -> anyhow::Result<Made> {
     let (pixels, texels, cell) = (cx.pick(256, 96), cx.pick(512, 256), 96);
-    let mut found = vec![[Judged::default(); STAGES.len()]; METHODS.len()];
-    let mut sheet = Sheet::new(METHODS.len() as u32 + 1, STAGES.len() as u32, cell);
-    sheet.legend();
-    for (method, (name, _)) in METHODS.iter().enumerate() {
-        sheet.head(method as u32 + 1, name);
-    }
-    for (stage, (name, make, _)) in STAGES.iter().enumerate() {
+    let mut found = vec![[Judged::default(); STAGES.len()]; ALL];
+    // Two sheets: papers and our own; what filters its map, and engines.
+    let sheet = |methods: &[&Method]| {
+        let mut sheet = Sheet::new(methods.len() as u32 + 1, STAGES.len() as u32, cell);
+        sheet.legend();
+        for (method, (name, _)) in methods.iter().enumerate() {
+            sheet.head(method as u32 + 1, name);
+        }
+        for (stage, (name, ..)) in STAGES.iter().enumerate() {
+            sheet.side(stage as u32, name);
+        }
+        sheet
+    };
+    let names: Vec<&Method> = all().collect();
+    let (papers, others) = names.split_at(METHODS.len());
+    let mut sheets = [sheet(papers), sheet(others)];
+    for (stage, (_, make, _)) in STAGES.iter().enumerate() {
         let set = Set::new(make(), pixels, texels);
         let truth = set.truth_points(cx, &Frame::CENTRES);
-        sheet.place(0, stage as u32, truth.size, &truth.colour);
-        sheet.side(stage as u32, name);
-        for (method, (_, recipe)) in METHODS.iter().enumerate() {
+        for sheet in &mut sheets {
+            sheet.place(0, stage as u32, truth.size, &truth.colour);
+        }
+        for (method, (_, recipe)) in all().enumerate() {
             let picture = set.by(cx, recipe, &Frame::CENTRES)?;
             let judged = judge(cx, &picture, &truth);
             found[method][stage] = judged;
@@ -64,15 +82,20 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
             let asked = |i: usize| truth.facing[0][i] > 0.05;
             let (own, exact) = (&picture.shadow[0], &truth.shadow[0]);
             let apart = (0..own.len()).map(|i| heat(if asked(i) { own[i] - exact[i] } else { 0.0 }));
-            let (column, line) = (method as u32 + 1, stage as u32);
-            sheet.place(column, line, truth.size, &apart.collect::<Vec<_>>());
+            let (sheet, place) = if method < METHODS.len() { (0, method) } else { (1, method - METHODS.len()) };
+            let (column, line) = (place as u32 + 1, stage as u32);
+            sheets[sheet].place(column, line, truth.size, &apart.collect::<Vec<_>>());
             let above = |fault: f64, most: f64| (fault > most).then_some(fault);
-            sheet.faults(column, line, above(judged.acne, MOST_ACNE), above(judged.leak, MOST_LEAK));
+            sheets[sheet].faults(column, line, above(judged.acne, MOST_ACNE), above(judged.leak, MOST_LEAK));
         }
     }
     let mut made = Made::default();
-    let faults: [(&str, Fault); 3] =
-        [("false shadow", |one| one.acne), ("leak", |one| one.leak), ("error, rms", |one| one.rms)];
+    let faults: [(&str, Fault); 4] = [
+        ("false shadow", |one| one.acne),
+        ("leak", |one| one.leak),
+        ("leak area", |one| one.area),
+        ("error, rms", |one| one.rms),
+    ];
     for (name, of) in faults {
         let line = |(method, row): (&Method, &[Judged; STAGES.len()])| {
             let values: Vec<f64> = row.iter().map(of).collect();
@@ -80,12 +103,17 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
             let mean = known.iter().sum::<f64>() / known.len() as f64;
             methods::row(method.0, values.into_iter().chain([mean]))
         };
-        let rows = METHODS.iter().zip(&found).map(line).collect();
+        let rows = all().zip(&found).map(line).collect();
         let head = std::iter::once(name).chain(STAGES.iter().map(|stage| stage.0)).chain(["mean"]);
         made.tables.push(Table { name: name.into(), head: head.map(String::from).collect(), rows });
     }
-    let caption = "Every scene (rows) by every method (columns), less truth";
-    made.panels.push(Panel::rgb("matrix", caption, sheet.size, sheet.pixels).role(Role::Error));
+    for (sheet, (name, whose)) in sheets
+        .into_iter()
+        .zip([("matrix", "every method"), ("matrix-others", "prefiltered maps and engines' defaults")])
+    {
+        let caption = format!("Every scene (rows) by {whose} (columns), less truth");
+        made.panels.push(Panel::rgb(name, &caption, sheet.size, sheet.pixels).role(Role::Error));
+    }
     let worst = |name: &str, of: Fault, solids: bool| {
         let among = STAGES.iter().zip(&found[index(name)]).filter(|(stage, _)| stage.2 || !solids);
         among.map(|(_, one)| of(one)).filter(|value| value.is_finite()).fold(0.0, f64::max)
@@ -132,21 +160,36 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
         measures.push(Measure::at_most(&name, worst, "share", 0.002).full_size(cx.quick));
     }
     let clean = |one: &Judged| !(one.acne > MOST_ACNE || one.leak > MOST_LEAK || one.rms.is_nan());
-    let counts = found.iter().map(|row| row.iter().filter(|one| clean(one)).count());
-    for (method, ((name, _), count)) in METHODS.iter().zip(counts).enumerate() {
+    let counts: Vec<usize> = found.iter().map(|row| row.iter().filter(|one| clean(one)).count()).collect();
+    let stages = STAGES.len() as f64;
+    for (method, (name, _)) in all().enumerate() {
         let name = format!("{name}: scenes without false shadow above .5 % and leaks above 2 %");
-        let all = STAGES.len() as f64;
+        let count = counts[method] as f64;
         let measure = if method < PUBLISHED {
-            Measure::at_most(&name, count as f64, "of 12", all - 1.0)
+            Measure::at_most(&name, count, "of 12", stages - 1.0)
         } else {
-            Measure::info(&name, count as f64, "of 12")
+            Measure::info(&name, count, "of 12")
         };
         measures.push(measure);
     }
+    let engines = METHODS.len() + PREFILTERED.len();
+    let through = counts[engines..].iter().filter(|count| **count == STAGES.len()).count() as f64;
+    let name = "engines whose default is without such faults on every scene";
+    measures.push(Measure::at_most(name, through, "engines", 0.0).full_size(cx.quick));
+    for (method, (name, _)) in all().enumerate().take(engines).skip(METHODS.len()) {
+        let areas = found[method].iter().map(|one| one.area).filter(|area| area.is_finite());
+        measures.push(Measure::info(
+            &format!("{name}: worst leak area, of shadowed pixels"),
+            areas.fold(0.0, f64::max),
+            "share",
+        ));
+    }
     made.measures = measures;
-    made.note = "In the picture orange is too dark, false shadow, and blue too light, a leak; a number is written where it is more than counts as none. \
+    made.note = "In the pictures orange is too dark, false shadow, and blue too light, a leak; a number is written where it is more than counts as none. \
                  Surfaces turned away from the light are left grey. False shadow is looked for on lit surfaces that face the light, leaks on shadowed ones, both off truth's edges; the error is \
-                 that of every wholly covered pixel. Midpoints in Burley's cone are a mix that nobody published. Soft methods are judged against the hard truth of a point light. Maps are 512², a pixel is asked once."
+                 that of every wholly covered pixel. Leak area is the share of those shadowed pixels that have a twentieth of the light or more: light that variance shadow maps let through is too faint to count as a leak, but wide. Midpoints in Burley's cone are a mix that nobody published. \
+                 Engines' defaults have their own kernels and biases, but the maps of all others; three.js casts with back faces, and sheets with both sides. One unit of a scene is taken for one of the \
+                 engine's, and the light's near and far planes for those that the engine would choose. Soft methods are judged against the hard truth of a point light. Maps are 512², a pixel is asked once."
         .into();
     Ok(made)
 }

@@ -1,7 +1,7 @@
 //! Our own: every method beside every other, against map size and under low light.
 
 use crate::figure::{Context, Figure, Paper};
-use crate::stage::masks::{acne, leak, value};
+use crate::stage::masks::{acne, leak, leak_area, value};
 use crate::stage::panels::{error_panel, shadow_panel, truth_panel};
 use crate::stage::set::Set;
 use glam::{DVec3, Vec3};
@@ -35,6 +35,24 @@ pub(super) const METHODS: [Method; 11] = [
 /// So many of them, the first, are published as such.
 pub(super) const PUBLISHED: usize = 7;
 
+/// Maps that are filtered before they are asked.
+pub(super) const PREFILTERED: [Method; 5] =
+    [("vsm", "vsm"), ("esm", "esm"), ("evsm2", "evsm2"), ("evsm4", "evsm4"), ("msm", "msm")];
+
+/// What engines do when nobody sets anything.
+pub(super) const ENGINES: [Method; 10] = [
+    ("three-pcf", "three-pcf"),
+    ("babylon-none", "babylon-none"),
+    ("babylon-pcf", "babylon-pcf"),
+    ("filament-pcf", "filament-pcf"),
+    ("bevy-gaussian", "bevy-gaussian"),
+    ("godot-pcf", "godot-pcf"),
+    ("urp-hard", "urp-hard"),
+    ("urp-soft", "urp-soft"),
+    ("hdrp-pcf5", "hdrp-pcf5"),
+    ("hdrp-pcf7", "hdrp-pcf7"),
+];
+
 /// Index of a method by its name.
 pub(super) fn index(name: &str) -> usize {
     METHODS.iter().position(|method| method.0 == name).unwrap_or(METHODS.len())
@@ -45,6 +63,8 @@ pub(super) fn index(name: &str) -> usize {
 pub(super) struct Judged {
     pub acne: f64,
     pub leak: f64,
+    /// The share of the pixels where leaks are looked for that have a twentieth of the light or more.
+    pub area: f64,
     pub rms: f64,
 }
 
@@ -59,6 +79,7 @@ pub(super) fn judge(cx: &Context, picture: &Picture, truth: &Picture) -> Judged 
         acne: acne(picture, truth, border(cx), |_| true),
         // Beside the soft edges that filters are made for; what contacts leak lies farther in.
         leak: leak(picture, truth, cx.pick(2, 1)),
+        area: leak_area(picture, truth, cx.pick(2, 1), 0.05),
         rms: value(metrics::rms(&picture.shadow[0], &truth.shadow[0], &seen)),
     }
 }

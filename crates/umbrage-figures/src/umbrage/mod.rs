@@ -9,6 +9,7 @@ mod judge;
 mod kinds;
 mod matrix;
 mod methods;
+mod offsets;
 mod paging;
 mod sheet;
 mod softness;
@@ -23,6 +24,7 @@ pub const FIGURES: &[&Figure] = &[
     &curves::NOISE,
     &faults::FAULTS,
     &engines::BIAS,
+    &offsets::OFFSETS,
     &methods::SIZES,
     &methods::GRAZING,
     &matrix::PRESETS,

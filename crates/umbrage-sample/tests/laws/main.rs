@@ -1,5 +1,6 @@
 //! The laws that every pattern obeys, each over every pattern (C-9, R87-11).
 
+mod engines;
 mod key;
 mod table;
 mod twins;
@@ -11,8 +12,8 @@ use proptest::prelude::*;
 use twins::Twin;
 use umbrage_plane::Footprint;
 use umbrage_sample::{
-    Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Table, Tap,
-    Tent, Uniform, each_tap, hammersley,
+    AreaTent, Castano, Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key,
+    Pattern, Table, Tap, Tent, Uniform, Vogel, each_tap, hammersley,
 };
 
 /// The one list. A new pattern is added here, and its twin in `twins`.
@@ -38,6 +39,11 @@ macro_rules! every_pattern {
         $law("disc", &Disc::default() $(, $more)*);
         let plain = Disc::default().with_num_samples(20).with_density(Density::Centred).with_rotate(false).with_half_offset(true);
         $law("disc, centred", &plain $(, $more)*);
+        $law("castano 5", &Castano::Five $(, $more)*);
+        $law("castano 7", &Castano::Seven $(, $more)*);
+        $law("area tent", &AreaTent $(, $more)*);
+        $law("vogel", &Vogel::default() $(, $more)*);
+        $law("vogel 13", &Vogel::default().with_num_samples(13).with_rotate(false) $(, $more)*);
     };
 }
 
@@ -266,6 +272,10 @@ fn taps_are_centred_on_the_region() {
     check("inside, rejecting", mean(&InsideQuadReject::default(), &region, 4000));
     check("inside, warping", mean(&InsideQuadWarp::default(), &region, 4000));
     check("disc", mean(&Disc::default(), &region, 4000));
+    check("castano 5", mean(&Castano::Five, &region, 1));
+    check("castano 7", mean(&Castano::Seven, &region, 1));
+    check("area tent", mean(&AreaTent, &region, 1));
+    check("vogel", mean(&Vogel::default(), &region, 4000));
 }
 
 /// Both methods of sampling inside the boundary weigh area alike: their mean is the quadrilateral's centroid.

@@ -3,8 +3,8 @@
 use glam::Vec2;
 use umbrage_plane::Footprint;
 use umbrage_sample::{
-    Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern, Table, Tap,
-    Tent, Uniform,
+    AreaTent, Castano, Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key,
+    Pattern, Table, Tap, Tent, Uniform, Vogel,
 };
 
 /// A pattern that has a naive twin.
@@ -44,17 +44,67 @@ impl Twin for EveryTexel {
     }
 }
 
+/// Every texel with the product of its weights along both axes: `side` of the distance from the centre and the half-extent.
+fn weighed(region: &Footprint, key: Key, side: impl Fn(f32, f32) -> f32) -> Vec<(u32, Tap)> {
+    let along = |at: f32, centre: f32, half: f32| if half > 0.5 { side((at - centre).abs(), half) } else { 1.0 };
+    let weighed = |(index, tap): (u32, Tap)| {
+        let weight = along(tap.at.x, region.centre.x, region.half.x) * along(tap.at.y, region.centre.y, region.half.y);
+        (index, Tap { weight, ..tap })
+    };
+    EveryTexel.naive(region, key).into_iter().map(weighed).collect()
+}
+
 impl Twin for Tent {
     fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)> {
-        let side = |at: f32, centre: f32, half: f32| {
-            if half > 0.5 { (-((at - centre).abs() / half) + 1.0).max(0.0) } else { 1.0 }
+        weighed(region, key, |away, half| (-(away / half) + 1.0).max(0.0))
+    }
+}
+
+impl Twin for Castano {
+    fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)> {
+        let ramp = |t: f32, end: f32| (-t + end).max(0.0);
+        weighed(region, key, |away, half| {
+            if *self == Self::Five {
+                let t = away * (3.0 / half);
+                ramp(t, 3.0) + ramp(t, 2.0) - ramp(t, 1.0)
+            } else {
+                let t = away * (4.0 / half);
+                (ramp(t, 3.0) + ramp(t, 2.0) - ramp(t, 1.0)) * 3.0 + ramp(t, 4.0)
+            }
+        })
+    }
+}
+
+impl Twin for AreaTent {
+    fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)> {
+        weighed(region, key, |away, half| {
+            let foot = half - 0.5;
+            let area = |place: f32| {
+                let place = place.max(-foot).min(foot);
+                (place.abs() * -0.5 + foot) * place
+            };
+            (area(away + 0.5) - area(away - 0.5)).max(0.0)
+        })
+    }
+}
+
+impl Twin for Vogel {
+    fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)> {
+        let n = self.num_samples;
+        let start = if self.rotate { key.unit(0, 0) } else { 0.0 };
+        let reach = Vec2::new((region.half.x - 1.0).max(0.0), (region.half.y - 1.0).max(0.0));
+        let four = |k: u32| {
+            let radius = ((k as f32 + 0.5) / n as f32).sqrt();
+            let at = radius * turned(k as f32 * 0.381_966 + start) * reach + region.centre;
+            let first = (at - 0.5).floor();
+            let share = at - 0.5 - first;
+            [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].map(|(right, below)| {
+                let weight = |share: f32, beyond: f32| if beyond == 1.0 { share } else { -share + 1.0 };
+                (first + Vec2::new(right, below) + 0.5, weight(share.x, right) * weight(share.y, below))
+            })
         };
-        let weighed = |(index, tap): (u32, Tap)| {
-            let weight =
-                side(tap.at.x, region.centre.x, region.half.x) * side(tap.at.y, region.centre.y, region.half.y);
-            (index, Tap { weight, ..tap })
-        };
-        EveryTexel.naive(region, key).into_iter().map(weighed).collect()
+        let all = (0..n).flat_map(four).zip(0..);
+        all.map(|((at, weight), index)| (index, Tap { weight, ..tap(region, key, index, at).1 })).collect()
     }
 }
 

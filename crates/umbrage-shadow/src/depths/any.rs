@@ -1,6 +1,8 @@
-use super::{BiasCone, Biased, Compared, OnPlane, ReceiverDepth, biased, cone, plane};
+use super::{
+    BiasCone, Biased, Compared, Moved, NormalOffset, OnPlane, ReceiverDepth, SlopeScaled, biased, cone, plane,
+};
 use fearless_simd::{Simd, f32x16};
-use umbrage_plane::{DepthRange, Receiver, TexelRect, View};
+use umbrage_plane::{DepthRange, Footprint, Receiver, TexelRect, View};
 use umbrage_sample::Taps;
 
 /// Any of this crate's compared depths, chosen when the program runs: what a recipe's `depth=` becomes. The same bits as its own type.
@@ -13,6 +15,10 @@ pub enum AnyDepth {
     OnPlane(OnPlane),
     /// [`BiasCone`].
     Cone(BiasCone),
+    /// [`SlopeScaled`].
+    Slope(SlopeScaled),
+    /// [`NormalOffset`].
+    Offset(NormalOffset),
 }
 
 impl AnyDepth {
@@ -23,6 +29,8 @@ impl AnyDepth {
             Self::Biased(depth) => Ready::Biased(depth.ready(view, receiver)),
             Self::OnPlane(depth) => Ready::OnPlane(depth.ready(view, receiver)),
             Self::Cone(depth) => Ready::Cone(depth.ready(view, receiver)),
+            Self::Slope(depth) => Ready::Biased(depth.ready(view, receiver)),
+            Self::Offset(depth) => Ready::Moved(depth.ready(view, receiver)),
         }
     }
 }
@@ -50,15 +58,22 @@ enum Ready<'a> {
     Biased(biased::Ready),
     OnPlane(plane::Ready),
     Cone(cone::Ready<'a>),
+    Moved(Moved),
 }
 
 impl Compared for Ready<'_> {
+    #[inline(always)]
+    fn region(&self, region: &Footprint) -> Footprint {
+        if let Self::Moved(depth) = self { depth.region(region) } else { *region }
+    }
+
     #[inline(always)]
     fn lanes<S: Simd>(&self, simd: S, taps: &Taps<S>) -> f32x16<S> {
         match self {
             Self::Biased(depth) => depth.lanes(simd, taps),
             Self::OnPlane(depth) => depth.lanes(simd, taps),
             Self::Cone(depth) => depth.lanes(simd, taps),
+            Self::Moved(depth) => depth.lanes(simd, taps),
         }
     }
 
@@ -68,6 +83,7 @@ impl Compared for Ready<'_> {
             Self::Biased(depth) => depth.bounds(rect),
             Self::OnPlane(depth) => depth.bounds(rect),
             Self::Cone(depth) => depth.bounds(rect),
+            Self::Moved(depth) => depth.bounds(rect),
         }
     }
 
@@ -77,6 +93,7 @@ impl Compared for Ready<'_> {
             Self::Biased(depth) => depth.settled(rect, stored),
             Self::OnPlane(depth) => depth.settled(rect, stored),
             Self::Cone(depth) => depth.settled(rect, stored),
+            Self::Moved(depth) => depth.settled(rect, stored),
         }
     }
 }
@@ -96,5 +113,17 @@ impl From<OnPlane> for AnyDepth {
 impl From<BiasCone> for AnyDepth {
     fn from(depth: BiasCone) -> Self {
         Self::Cone(depth)
+    }
+}
+
+impl From<SlopeScaled> for AnyDepth {
+    fn from(depth: SlopeScaled) -> Self {
+        Self::Slope(depth)
+    }
+}
+
+impl From<NormalOffset> for AnyDepth {
+    fn from(depth: NormalOffset) -> Self {
+        Self::Offset(depth)
     }
 }

@@ -82,6 +82,14 @@ pub(super) struct Ready {
     spread: Spread,
 }
 
+impl Ready {
+    /// One depth at every tap.
+    #[inline(always)]
+    pub fn at(depth: f32) -> Self {
+        Self { near_end: depth, span: None, spread: Spread::Random }
+    }
+}
+
 impl Compared for Ready {
     #[inline(always)]
     fn lanes<S: Simd>(&self, simd: S, taps: &Taps<S>) -> f32x16<S> {

@@ -3,15 +3,19 @@
 mod any;
 mod biased;
 mod cone;
+mod offset;
 mod plane;
+mod slope;
 
 pub use any::AnyDepth;
 pub use biased::{Biased, Spread};
 pub use cone::{BiasCone, Radius};
+pub use offset::{Moved, NormalOffset, OffsetGrowth};
 pub use plane::OnPlane;
+pub use slope::SlopeScaled;
 
 use fearless_simd::{Simd, f32x16};
-use umbrage_plane::{DepthRange, Receiver, TexelRect, View};
+use umbrage_plane::{DepthRange, Footprint, Receiver, TexelRect, View};
 use umbrage_sample::Taps;
 
 /// Which depth the receiver is given at a tap; a texel nearer than that shadows it.
@@ -32,6 +36,13 @@ pub trait ReceiverDepth: Send + Sync {
 
 /// A [`ReceiverDepth`] of one receiver.
 pub trait Compared {
+    /// Where it is looked for what a filter looks for in `region`: the region itself, unless the receiver is moved sideways before it is looked up.
+    /// Taps and rectangles are those of this region.
+    #[inline(always)]
+    fn region(&self, region: &Footprint) -> Footprint {
+        *region
+    }
+
     /// [`ReceiverDepth::lanes`].
     fn lanes<S: Simd>(&self, simd: S, taps: &Taps<S>) -> f32x16<S>;
 

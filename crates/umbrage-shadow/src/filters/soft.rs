@@ -280,7 +280,7 @@ impl<D: ReceiverDepth> Soft<D> {
             &self.search,
             &self.depth,
             #[inline(always)]
-            |taps, compared, stored| {
+            |region, taps, compared, stored| {
                 let nearer = compared.simd_gt(stored).to_bitmask() as u32 & taps.mask;
                 for i in (0..16).filter(|i| nearer >> i & 1 == 1) {
                     let from = (Vec2::new(taps.x[i], taps.y[i]) - region.centre)

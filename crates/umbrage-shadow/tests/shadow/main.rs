@@ -2,6 +2,7 @@
 //! compiled once for all.
 
 mod around;
+mod biases;
 mod burley;
 mod deep;
 mod explained;

@@ -1,0 +1,62 @@
+use super::{Compared, ReceiverDepth, biased};
+use fearless_simd::{Simd, f32x16};
+use umbrage_plane::{Bias, DepthRange, Receiver, TexelRect, View};
+use umbrage_sample::Taps;
+
+/// The receiver's own depth, moved toward the light by a constant part and by one that grows with its slope: the depth bias of rasterisers (Direct3D 11,
+/// *Depth Bias*; Vulkan 1.3, *Depth Bias Computation*), said of the receiver and in linear depth.
+///
+/// The slope is [`Receiver::steeper_steps`]: the change of the receiver's plane from texel to texel, a row's or a column's, whichever is larger. For a point that
+/// is compared with its own texel alone, 1 is free of false shadow at any tilt up to the clamp: within half a texel along both axes a plane
+/// changes by no more than that. A filter that looks `half` texels to each side of its point, and reads texels whose centres lie as far from it, takes 2 × `half`.
+/// Rounding of stored depths wants a little besides, which is what `constant` is for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SlopeScaled {
+    /// What every receiver is moved by.
+    pub constant: Bias,
+    /// Texels: steps of depth from one to the next, from 0.
+    pub slope: f32,
+    /// Both parts together move no farther than this, world units; +∞ lets them (`DepthBiasClamp`).
+    pub most: f32,
+}
+
+impl Default for SlopeScaled {
+    /// One texel, and nothing else.
+    fn default() -> Self {
+        Self { constant: Bias::ZERO, slope: 1.0, most: f32::INFINITY }
+    }
+}
+
+umbrage_plane::builders!([] SlopeScaled { with_constant constant: Bias, with_slope slope: f32, with_most most: f32 });
+
+impl SlopeScaled {
+    /// How far a receiver is moved toward the light, world units.
+    #[inline(always)]
+    pub fn world(&self, view: &View, receiver: &Receiver) -> f32 {
+        (receiver.in_world(view, self.constant) + receiver.steeper_steps(view, self.slope)).min(self.most)
+    }
+
+    /// For one receiver.
+    #[inline(always)]
+    pub(super) fn ready(&self, view: &View, receiver: &Receiver) -> biased::Ready {
+        biased::Ready::at(receiver.nearer(view, Bias::World(self.world(view, receiver))))
+    }
+}
+
+impl ReceiverDepth for SlopeScaled {
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
+        self.ready(view, receiver).lanes(simd, taps)
+    }
+
+    #[inline(always)]
+    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
+        self.ready(view, receiver).bounds(rect)
+    }
+
+    #[inline(always)]
+    fn prepared<'a>(&'a self, view: &'a View, receiver: &'a Receiver) -> impl Compared + 'a {
+        self.ready(view, receiver)
+    }
+}
