@@ -1,4 +1,4 @@
-//! The project's chores: `figures`, `ci`, `tidy`, `dist`, `bench-report`. This program starts others and reads sources; it uses no crate of
+//! The project's chores: `figures`, `ci`, `tidy`, `dist`, `publish-check`, `bench-report`. This program starts others and reads sources; it uses no crate of
 //! Umbrage, so that it is there in seconds.
 
 mod bench_report;
@@ -6,6 +6,7 @@ mod ci;
 mod dist;
 mod figures;
 mod programs;
+mod publish;
 mod readme;
 mod tidy;
 
@@ -24,6 +25,8 @@ Commands:
   ci       Everything that must hold before a change is taken
   tidy     Check dependency arrows, circles of modules, allowed packages, file sizes, links and words that must not be there
   dist     Build the command, and put it with its manual pages and completions into target/dist
+  publish-check
+           Run the dry run of publishing all crates on a copy of the repository; with --no-verify without compiling them
   bench-report
            Measure beside other rasterisers, rays and the memory's limit, and make a table and a diagram of it;
            `cargo xtask bench-report --help` lists its options
@@ -40,6 +43,10 @@ enum Chore {
     Ci,
     Tidy,
     Dist,
+    /// The dry run of publishing, with every package compiled or not.
+    PublishCheck {
+        verify: bool,
+    },
     Help,
 }
 
@@ -52,6 +59,8 @@ fn chore(args: impl IntoIterator<Item = OsString>) -> Result<Chore, String> {
         Some("figures") => return Ok(Chore::Figures(rest)),
         Some("bench-report") => return Ok(Chore::BenchReport(rest)),
         Some("help" | "--help" | "-h") => return Ok(Chore::Help),
+        Some("publish-check") if rest == ["--no-verify"] => return Ok(Chore::PublishCheck { verify: false }),
+        Some("publish-check") => Chore::PublishCheck { verify: true },
         Some("ci") => Chore::Ci,
         Some("tidy") => Chore::Tidy,
         Some("dist") => Chore::Dist,
@@ -80,6 +89,7 @@ fn main() -> ExitCode {
         Chore::Ci => ci::run(&root()).map(good_or_failed),
         Chore::Tidy => tidy(&root()).map(good_or_failed),
         Chore::Dist => dist::run(&root()).map(good_or_failed),
+        Chore::PublishCheck { verify } => publish::run(&root(), verify).map(good_or_failed),
         Chore::Help => {
             print!("{HELP}");
             Ok(ExitCode::SUCCESS)
@@ -128,7 +138,9 @@ mod tests {
         }
         assert_eq!(of(&["ci", "--help"]), Ok(Chore::Help));
         assert_eq!(of(&["dist"]), Ok(Chore::Dist));
-        let names = ["figures ", "ci ", "tidy ", "dist ", "bench-report\n"];
+        assert_eq!(of(&["publish-check"]), Ok(Chore::PublishCheck { verify: true }));
+        assert_eq!(of(&["publish-check", "--no-verify"]), Ok(Chore::PublishCheck { verify: false }));
+        let names = ["figures ", "ci ", "tidy ", "dist ", "publish-check\n", "bench-report\n"];
         assert!(names.iter().all(|name| HELP.contains(&format!("\n  {name}"))));
     }
 

@@ -6,6 +6,7 @@
 mod arrows;
 mod files;
 mod modules;
+mod packages;
 mod sources;
 
 use anyhow::Context as _;
@@ -26,13 +27,15 @@ pub fn findings(root: &Path) -> anyhow::Result<Vec<String>> {
         }
         let read = || std::fs::read_to_string(path).with_context(|| name.clone());
         if name.ends_with("/Cargo.toml") {
-            findings.extend(arrows::manifest(&name, &read()?));
+            let (folder, text) = (path.parent().unwrap_or(root), read()?);
+            findings.extend(arrows::manifest(&name, &text));
+            findings.extend(packages::manifest(&name, &text, |file| folder.join(file).exists()));
         } else if path.extension().is_some_and(|end| end == "rs") {
             findings.extend(sources::source(&name, &read()?));
             if name.ends_with("/src/lib.rs") || name.ends_with("/src/main.rs") {
                 findings.extend(modules::circles(&name, &|file| std::fs::read_to_string(root.join(file)).ok()));
             }
-        } else if name.ends_with("README.md") {
+        } else if path.extension().is_some_and(|end| end == "md") {
             let folder = path.parent().unwrap_or(root);
             findings.extend(files::dead_links(&name, &read()?, |link| folder.join(link).exists()));
         }
@@ -77,7 +80,7 @@ mod tests {
         };
         put(
             "crates/umbrage-depth/Cargo.toml",
-            "[package]\nname = \"umbrage-depth\"\n[dependencies]\numbrage-raster = {}\n",
+            "[package]\nname = \"umbrage-depth\"\npublish = false\n[dependencies]\numbrage-raster = {}\n",
         );
         put("crates/umbrage-depth/src/lib.rs", "fn main() { dbg!(1); }");
         put("README.md", "[here](crates/umbrage-depth/src/lib.rs) [gone](crates/gone.rs)");
