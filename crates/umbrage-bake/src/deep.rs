@@ -7,7 +7,7 @@ use umbrage_depth::{DeepMap, MapError, Step, compress_steps};
 use umbrage_plane::{Facet, TexelRect, View};
 use umbrage_raster::{BIN, Bins, Cull, Stats, each_fragment};
 
-/// How a deep map is made (B06-11, EXT-2, EXT-3).
+/// How a deep map is made (Burley 2006).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deep {
     epsilon: f32,
@@ -87,9 +87,9 @@ pub struct BakedDeep {
 }
 
 /// Pass 1 of deep maps: a texel's transmittance is the mean over its samples and over the moments of an exposure of what all surfaces
-/// before a depth let through together ([`Caster::passes`], [`Caster::film`]; B06-11, EXT-2, EXT-3).
+/// before a depth let through together ([`Caster::passes`], [`Caster::film`]).
 ///
-/// `moments` are the triangles at evenly spread times, one of them for what is at rest; none gives an empty map. What is nearer than the near plane stands at it (C-10). The result
+/// `moments` are the triangles at evenly spread times, one of them for what is at rest; none gives an empty map. What is nearer than the near plane stands at it. The result
 /// does not depend on the number of threads. Maps too large for the samples, which are one grid of at most 32,768 a side, get as many as fit.
 #[expect(clippy::missing_panics_doc, reason = "a view has at most 32,768 texels a side, and as many samples as fit")]
 pub fn bake_deep<'a, M>(view: &View, moments: impl IntoIterator<Item = M>, deep: &Deep) -> BakedDeep

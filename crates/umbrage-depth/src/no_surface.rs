@@ -1,6 +1,6 @@
 //! Which numbers are depths of a surface.
 
-/// Stored values from here on mean that no surface was seen (C-5).
+/// Stored values from here on mean that no surface was seen.
 const NO_SURFACE: f32 = 1e30;
 
 /// The depth that a map keeps for `depth`: +∞ for no surface. NaN and −∞, which are no depths, are no surface either.

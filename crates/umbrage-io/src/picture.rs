@@ -179,7 +179,7 @@ pub fn write_exr(path: &Path, size: UVec2, linear_rgb: &[Vec3]) -> Result<(), Io
     write_bytes(path, &encode_exr(size, linear_rgb).map_err(|fault| fault.in_file(path))?)
 }
 
-/// Every pixel as a square of `factor` × `factor` pixels, for zooms that invent nothing. The new size and its pixels;
+/// Every pixel as a square of `factor` × `factor` pixels, for zooms that invent nothing. The new size and its pixels;
 /// a factor of 0 leaves none.
 ///
 /// # Panics

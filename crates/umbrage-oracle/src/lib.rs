@@ -2,7 +2,7 @@
 //!
 //! The oracle is one more [`Shadow`](umbrage_shadow::Shadow): [`RayCast`] answers exactly for a point, [`AreaRegion`]
 //! for a pixel's region, [`AreaLight`] for a light with extent, [`Mean`](umbrage_shadow::Mean) of them for a time that the shutter is open. [`metrics`]
-//! are the measures M1..M9 of the figures, [`faults`] gives the named faults of a picture with a heat map of each,
+//! are the measures of the figures, [`faults`] gives the named faults of a picture with a heat map of each,
 //! [`judge`] those of any scene without a place put by hand, [`predict`] what theory expects, [`BiasCase`], [`BiasSearch`] and [`BiasTrial`] whether a
 //! bias works, [`diagnose`] what to mend.
 //!

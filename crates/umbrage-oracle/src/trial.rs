@@ -1,4 +1,4 @@
-//! How biases fare on what a camera sees of anybody's scene (Wang & Molnar 1994; WM94-18).
+//! How biases fare on what a camera sees of anybody's scene (Wang & Molnar 1994).
 
 use crate::metrics::{Grid, dark_mask, lit_mask};
 use crate::{BiasSearch, BiasWindow};
@@ -80,9 +80,9 @@ impl TriedBias {
 /// What a bias leaves wrong; shares from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct BiasShares {
-    /// Mean shadow on the pixels that truth has lit (M2).
+    /// Mean shadow on the pixels that truth has lit.
     pub false_shadow: f64,
-    /// Mean light on the pixels that truth has in shadow (M8).
+    /// Mean light on the pixels that truth has in shadow.
     pub false_light: f64,
 }
 

@@ -7,7 +7,7 @@ use umbrage_plane::{SurfacePoint, Verdict, View};
 use umbrage_sample::Key;
 use umbrage_shadow::{Shadow, Unshadowed, same_length};
 
-/// What counts as truth. The default is physical: every object blocks light.
+/// What counts as truth. The default is physical: every object blocks light.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Truth {
     /// Only objects drawn into depth maps block light (Reeves 1987 leaves the ground out). Then only those are dark on the side away from the light, too.
@@ -113,7 +113,7 @@ impl Passed {
     }
 }
 
-/// Exact hard shadows by one ray a point: 0 or 1, and between where light passes through things (EXT-3).
+/// Exact hard shadows by one ray a point: 0 or 1, and between where light passes through things.
 ///
 /// * A point on a solid whose geometric normal does not face the light is dark: its own body is in the way. On a sheet
 ///   the ray alone decides, and the sheet at the point itself does not count.
@@ -223,7 +223,7 @@ impl Shadow for AreaRegion<'_> {
     }
 }
 
-/// True soft shadows of a disc: the share of it that a point does not see (X-5, EXT-1, D-16).
+/// True soft shadows of a disc: the share of it that a point does not see.
 ///
 /// A positional light becomes a disc of `radius` world units about its centre, square to its axis (to the receiver's
 /// direction when it has no view); a directional light a disc on the sky, `radius` being the tangent of its angular
@@ -248,7 +248,7 @@ impl<'a> AreaLight<'a> {
         Self::new(ray, radians.tan())
     }
 
-    /// With at least so many samples (X-5 asks for 256).
+    /// With at least so many samples (the figures take 256).
     #[must_use]
     pub fn with_samples(mut self, samples: u32) -> Self {
         self.across = f64::from(samples.max(1)).sqrt().ceil() as u32;

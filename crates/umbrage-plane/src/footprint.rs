@@ -3,7 +3,7 @@ use glam::Vec2;
 /// The image of a shaded region in a map, in texel units.
 ///
 /// A pixel's image is a quadrilateral; `centre` and `half` are its bounding box as Reeves' listing wants it
-/// (half-extents, not full sizes: spec E-R3).
+/// (half-extents, not full sizes).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Footprint {
     /// Centre of the bounding box.
@@ -38,9 +38,9 @@ impl Footprint {
     }
 
     /// Enlarged about a point of it, the image of what is shaded: half-extents times `factor`, then at least `min_half`, then at most
-    /// `max_half` (Reeves' `ResFactor` and `MinSize`, in that order; R87-12, R87-13). Corners scale alike, axis by axis, so that
+    /// `max_half` (Reeves' `ResFactor` and `MinSize`, in that order). Corners scale alike, axis by axis, so that
     /// the box stays the bounding box of the quadrilateral and all patterns look at one region, not about the quadrilateral's
-    /// centroid (a departure from R87-11 d). Where an axis without extent gets one, the region becomes the box.
+    /// centroid (a departure from Reeves 1987, Fig. 3d). Where an axis without extent gets one, the region becomes the box.
     ///
     /// In perspective the box's centre shows another place of the surface, at another depth, than the point does: the less of the
     /// region's own extent is left, the closer the result lies around the point.

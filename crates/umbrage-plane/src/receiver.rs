@@ -56,7 +56,7 @@ pub enum Bias {
     World(f32),
     /// Widths of a texel at the receiver: τ, the larger of both axes, in world units.
     Texels(f32),
-    /// Depth steps of the receiver's own plane from texel to texel: τ·tanθ (spec D-9). ½ along each axis is free of acne for point look-ups.
+    /// Depth steps of the receiver's own plane from texel to texel: τ·tanθ. ½ along each axis is free of acne for point look-ups.
     Steps(f32),
     /// Fractions of the way from the near plane to the far one, as screen depth z_s measures it: the very numbers that a map of
     /// [`Kind::Screen`] stores, quanta times the quantum for integer depth (Williams 1978). Over a map of another kind it is the same
@@ -72,7 +72,7 @@ impl Bias {
 /// A surface point as a light sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Receiver {
-    /// What its depth means; a map of another kind must not be asked about it (spec C-4).
+    /// What its depth means; a map of another kind must not be asked about it.
     pub kind: Kind,
     /// The region's image in the map.
     pub footprint: Footprint,
@@ -90,7 +90,7 @@ pub struct Receiver {
     pub texel_world: Vec2,
     /// Cosine between normal and the direction to the light; ≤ 0 facing away.
     pub facing: f32,
-    /// Depth change per world unit across the light's rays: tanθ on the axis, the effective slope σ elsewhere (spec D-15). +∞ edge-on.
+    /// Depth change per world unit across the light's rays: tanθ on the axis, the effective slope σ elsewhere. +∞ edge-on.
     pub slope: f32,
     /// Id of the object.
     pub object: u32,
@@ -110,7 +110,7 @@ impl Receiver {
 
     /// The depth to compare: this receiver's, moved toward the light by `bias`. The only place where a [`Bias`] is applied.
     ///
-    /// A world bias is exact in every kind of map (spec D-8).
+    /// A world bias is exact in every kind of map.
     #[inline(always)]
     pub fn nearer(&self, view: &View, bias: Bias) -> f32 {
         let world = match bias {
@@ -162,7 +162,7 @@ impl Receiver {
 }
 
 impl View {
-    /// A surface point as this light sees it: the exact projection of its corners, its depth, slope and facing (spec D-7).
+    /// A surface point as this light sees it: the exact projection of its corners, its depth, slope and facing.
     ///
     /// Corners behind the light are cut off at a sixteenth of the centre's distance; half-extents are capped at a quarter of the map.
     ///
@@ -251,7 +251,7 @@ impl View {
         Footprint { centre: capped.centre + shift, corners: capped.corners.map(|corner| corner + shift), ..capped }
     }
 
-    /// The footprint by derivatives instead of exact corners: half-extent = ½(|∂/∂x| + |∂/∂y|) for the region's two axes (spec D-7, second method).
+    /// The footprint by derivatives instead of exact corners: half-extent = ½(|∂/∂x| + |∂/∂y|) for the region's two axes.
     ///
     /// The axes are half the differences of opposite edges' midpoints.
     pub fn derivative_footprint(&self, at: &SurfacePoint) -> Option<Footprint> {

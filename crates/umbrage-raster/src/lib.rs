@@ -22,7 +22,7 @@
 //! });
 //! ```
 //!
-//! What holds (spec X-2):
+//! What holds:
 //!
 //! * A sample on the edge between two triangles belongs to exactly one of them, a sample on a corner to exactly one of the
 //!   triangles around it: the top-left rule, in integers, without a rounding. Coverage does not depend on the order of the corners.
@@ -32,7 +32,7 @@
 //! * What a facet covers is a function of the view and the triangle; neither tiles, windows nor the order of calls change it.
 //!
 //! Conventions are those of [`umbrage_plane`]. This crate knows no depth test and no shadow; it does not clamp depths to the near plane
-//! either (C-10): a facet's key nearer than `view.key(view.near())` is for the depth pass to clamp. In perspective nothing can be
+//! either: a facet's key nearer than `view.key(view.near())` is for the depth pass to clamp. In perspective nothing can be
 //! projected at the light itself: what is nearer than 1/1024 of the near distance is cut off, and counted
 //! ([`Stats::too_near`]).
 
@@ -114,7 +114,7 @@ pub struct Stats {
     /// Nearer than the near plane somewhere; the depth pass clamps their depths to it.
     pub before_near: u64,
     /// In front of a perspective view, but nearer than 1/1024 of its near distance somewhere: that part is cut off, and with it
-    /// whatever shadow it throws (C-10). Also counted where they were kept or skipped.
+    /// whatever shadow it throws. Also counted where they were kept or skipped.
     pub too_near: u64,
 }
 

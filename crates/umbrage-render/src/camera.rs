@@ -5,7 +5,7 @@ use umbrage_bake::Masks;
 use umbrage_plane::{Cells, Facet, Facing, SurfacePoint, View};
 use umbrage_raster::{BIN, Bins, each_fragment};
 
-/// A piece of one surface within one pixel: what is shaded once (R87-8).
+/// A piece of one surface within one pixel: what is shaded once (Reeves 1987).
 pub(crate) struct Region {
     /// Where and how large it is; its normal is the geometric one on the visible side.
     pub point: SurfacePoint,

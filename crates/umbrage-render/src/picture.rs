@@ -10,7 +10,7 @@ use umbrage_sample::Key;
 use umbrage_scene::Scene;
 use umbrage_shadow::Shadow;
 
-/// How the camera's picture is sampled.
+/// How the camera's picture is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame {
     /// Visibility samples a pixel along each axis: 1, 2, 4 or 8 (other values count as the next lower of these). All samples of a
@@ -21,11 +21,11 @@ pub struct Frame {
     /// Shades every sample by itself instead of once per surface and pixel: slow, and what truth is made with.
     pub every_sample: bool,
     /// Gives shadows the interpolated normal instead of the geometric one: the plane that Wang & Molnar fit where surfaces are shaded
-    /// smoothly (WM94-11).
+    /// smoothly.
     pub smooth: bool,
     /// Seed of the camera's jitter and of the shadows' keys.
     pub seed: u32,
-    /// Number of the frame (R87-25): another frame, other random numbers. Keep it constant for static noise.
+    /// Number of the frame (Reeves 1987): another frame, other random numbers. Keep it constant for static noise.
     pub number: u32,
 }
 
@@ -87,7 +87,7 @@ pub struct Picture {
     /// Distance along the camera's axis of that region; +∞ where nothing is seen.
     pub depth: Vec<f32>,
     /// Samples generated, hidden ones included: the points that Williams' point-by-point mode transforms when it tests
-    /// every one before it is shaded (W78-4, W78-22, X-6).
+    /// every one before it is shaded.
     pub fragments: u64,
     /// Those of them that were nearer than all before, in the scene's order: what that mode transforms when only points
     /// that pass the depth test are asked about. The picture is the same.
@@ -96,7 +96,7 @@ pub struct Picture {
     pub regions: u64,
 }
 
-/// Pass 2: the camera's picture of a scene, with `shadows[i]` deciding what of light i arrives (R87-1).
+/// Pass 2: the camera's picture of a scene, with `shadows[i]` deciding what of light i arrives (Reeves 1987).
 ///
 /// Lights beyond the end of `shadows`, and those that do not cast ([`umbrage_scene::Light::casts`]), have no shadow.
 pub fn picture(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame) -> Picture {

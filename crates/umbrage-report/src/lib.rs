@@ -10,7 +10,7 @@
 //! use umbrage_report::{Entry, Heading, Made, Measure, Run, Verdict};
 //!
 //! let heading = Heading {
-//!     id: "T-1".into(),
+//!     id: "sum".into(),
 //!     paper: "Trials".into(),
 //!     title: "A sum".into(),
 //!     claim: "Two and two are four.".into(),

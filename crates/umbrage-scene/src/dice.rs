@@ -10,7 +10,7 @@ pub const MOST_PIECES: u32 = 1024;
 /// Pieces along a side of a patch that is seen and reaches behind the eye, where no size can be told.
 const BEHIND_PIECES: u32 = 256;
 
-/// Cuts Bézier patches into pieces whose sides are no longer than a texel of `view` (Williams 1978; W78-23), at most
+/// Cuts Bézier patches into pieces whose sides are no longer than a texel of `view` (Williams 1978), at most
 /// [`MOST_PIECES`] along a side of a patch. Patches that reach behind a perspective view's eye get 256; those wholly outside the
 /// view are not cut for their own sake.
 ///

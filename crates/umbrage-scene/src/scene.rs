@@ -10,7 +10,7 @@ use crate::Light;
 pub enum Shape {
     /// Fixed triangles.
     Mesh(Mesh),
-    /// Patches, diced anew for each view (Williams 1978; W78-23).
+    /// Patches, diced anew for each view (Williams 1978).
     Patches(Vec<Patch>),
 }
 
@@ -77,7 +77,7 @@ pub struct Object {
     pub shape: Shape,
     /// Surface.
     pub material: Material,
-    /// Drawn in pass 1 (Reeves 1987 leaves the ground out; R87-5).
+    /// Drawn in pass 1 (Reeves 1987 leaves the ground out).
     pub casts: bool,
     /// Can be shadowed.
     pub receives: bool,
@@ -193,7 +193,7 @@ impl Scene {
         object.shape.hull().map(move |at| origin + at.as_dvec3())
     }
 
-    /// Ids of the casting objects that are not wholly inside what a light sees; their shadows may be cut off (W78-8).
+    /// Ids of the casting objects that are not wholly inside what a light sees; their shadows may be cut off (Williams 1978).
     ///
     /// Patches are judged by their control points, so that one may be named that just fits.
     pub fn casters_outside(&self, light: &View) -> Vec<u32> {

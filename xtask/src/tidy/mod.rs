@@ -5,6 +5,7 @@
 
 mod arrows;
 mod files;
+mod ids;
 mod modules;
 mod packages;
 mod sources;
@@ -18,6 +19,8 @@ pub fn findings(root: &Path) -> anyhow::Result<Vec<String>> {
     walk(root, &mut paths)?;
     let mut findings = Vec::new();
     let mut fixtures = Vec::new();
+    let page = std::fs::read_to_string(root.join(ids::PAGE)).unwrap_or_default();
+    let explained = ids::explained(&page);
     for path in &paths {
         let name = relative(root, path);
         let length = path.metadata().with_context(|| name.clone())?.len();
@@ -31,7 +34,12 @@ pub fn findings(root: &Path) -> anyhow::Result<Vec<String>> {
             findings.extend(arrows::manifest(&name, &text));
             findings.extend(packages::manifest(&name, &text, |file| folder.join(file).exists()));
         } else if path.extension().is_some_and(|end| end == "rs") {
-            findings.extend(sources::source(&name, &read()?));
+            let text = read()?;
+            findings.extend(sources::source(&name, &text));
+            // This program's own tests make some up.
+            if !name.starts_with("xtask/") {
+                findings.extend(ids::cited(&name, &text, &explained));
+            }
             if name.ends_with("/src/lib.rs") || name.ends_with("/src/main.rs") {
                 findings.extend(modules::circles(&name, &|file| std::fs::read_to_string(root.join(file)).ok()));
             }

@@ -1,4 +1,4 @@
-//! Maps whose tiles stay in their file until they are looked at (Reeves 1987, §3.3; R87-20).
+//! Maps whose tiles stay in their file until they are looked at (Reeves 1987, §3.3).
 
 mod lru;
 mod pager;
@@ -13,7 +13,7 @@ use std::sync::{Arc, Weak};
 use umbrage_depth::{DepthMap, Stored};
 use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
 
-/// A shadow map of which only the tiles looked at last are in memory (R87-20): pages of the file's own tiles, 64×64 texels and
+/// A shadow map of which only the tiles looked at last are in memory (Reeves 1987): pages of the file's own tiles, 64×64 texels and
 /// 16 KiB in files of ours, the least recently used giving way.
 ///
 /// It answers as the [`Raw`](umbrage_depth::Raw) map of [`read_shadow_map`](crate::read_shadow_map) does, bit for bit, whatever

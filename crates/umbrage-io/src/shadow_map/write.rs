@@ -91,7 +91,7 @@ pub(super) fn tiled(header: Header) -> Header {
     header.with_encoding(Compression::ZIP16, BlockDescription::Tiles(tiles), LineOrder::Increasing)
 }
 
-/// The smallest rectangle around the finite depths (R87-19); one texel, as EXR needs it, when there are none.
+/// The smallest rectangle around the finite depths (Reeves 1987); one texel, as EXR needs it, when there are none.
 pub(crate) fn stored_window(map: &impl DepthMap) -> TexelRect {
     let whole = TexelRect::of_size(map.view().size());
     let side = TILE as i32;

@@ -3,7 +3,7 @@ use glam::{IVec2, UVec2, Vec2};
 /// Sub-scanlines and sub-columns a pixel when smoothed contours are drawn.
 const SUB: usize = 8;
 
-/// Takes the staircase out of a binary shadow image (W78-16): its contours are traced as closed chains of cracks between
+/// Takes the staircase out of a binary shadow image (Williams 1978): its contours are traced as closed chains of cracks between
 /// pixels, each vertex becomes the mean of its 2·`window` + 1 neighbours along the chain, and the smoothed polygons are
 /// drawn again with 8 × 8 samples a pixel.
 ///
