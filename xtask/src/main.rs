@@ -1,6 +1,7 @@
-//! The project's chores: `figures`, `ci`, `tidy`, `dist`, `publish-check`, `bench-report`. This program starts others and reads sources; it uses no crate of
+//! The project's chores: `figures`, `ci`, `tidy`, `api`, `dist`, `publish-check`, `bench-report`. This program starts others and reads sources; it uses no crate of
 //! Umbrage, so that it is there in seconds.
 
+mod api;
 mod bench_report;
 mod ci;
 mod dist;
@@ -24,7 +25,8 @@ Commands:
            `cargo xtask figures --help` lists its options
   ci       Everything that must hold before a change is taken
   tidy     Check dependency arrows, circles of modules, allowed packages, file sizes, links and words that must not be there
-  dist     Build the command, and put it with its manual pages and completions into target/dist
+  api      Compare what the renderer's crates offer with what is kept of it; with --bless keep what they offer now
+  dist     Build the command, and pack it with its manual pages and completions: a tarball and a Debian package in target/dist
   publish-check
            Run the dry run of publishing all crates on a copy of the repository; with --no-verify without compiling them
   bench-report
@@ -43,6 +45,10 @@ enum Chore {
     Ci,
     Tidy,
     Dist,
+    /// What the crates offer, compared or kept.
+    Api {
+        bless: bool,
+    },
     /// The dry run of publishing, with every package compiled or not.
     PublishCheck {
         verify: bool,
@@ -59,6 +65,8 @@ fn chore(args: impl IntoIterator<Item = OsString>) -> Result<Chore, String> {
         Some("figures") => return Ok(Chore::Figures(rest)),
         Some("bench-report") => return Ok(Chore::BenchReport(rest)),
         Some("help" | "--help" | "-h") => return Ok(Chore::Help),
+        Some("api") if rest == ["--bless"] => return Ok(Chore::Api { bless: true }),
+        Some("api") => Chore::Api { bless: false },
         Some("publish-check") if rest == ["--no-verify"] => return Ok(Chore::PublishCheck { verify: false }),
         Some("publish-check") => Chore::PublishCheck { verify: true },
         Some("ci") => Chore::Ci,
@@ -89,6 +97,7 @@ fn main() -> ExitCode {
         Chore::Ci => ci::run(&root()).map(good_or_failed),
         Chore::Tidy => tidy(&root()).map(good_or_failed),
         Chore::Dist => dist::run(&root()).map(good_or_failed),
+        Chore::Api { bless } => api::run(&root(), bless).map(good_or_failed),
         Chore::PublishCheck { verify } => publish::run(&root(), verify).map(good_or_failed),
         Chore::Help => {
             print!("{HELP}");
@@ -140,7 +149,9 @@ mod tests {
         assert_eq!(of(&["dist"]), Ok(Chore::Dist));
         assert_eq!(of(&["publish-check"]), Ok(Chore::PublishCheck { verify: true }));
         assert_eq!(of(&["publish-check", "--no-verify"]), Ok(Chore::PublishCheck { verify: false }));
-        let names = ["figures ", "ci ", "tidy ", "dist ", "publish-check\n", "bench-report\n"];
+        assert_eq!(of(&["api"]), Ok(Chore::Api { bless: false }));
+        assert_eq!(of(&["api", "--bless"]), Ok(Chore::Api { bless: true }));
+        let names = ["figures ", "ci ", "tidy ", "api ", "dist ", "publish-check\n", "bench-report\n"];
         assert!(names.iter().all(|name| HELP.contains(&format!("\n  {name}"))));
     }
 

@@ -49,6 +49,7 @@ pub fn findings(root: &Path) -> anyhow::Result<Vec<String>> {
         }
     }
     findings.extend(files::fixtures_too_large(&fixtures));
+    findings.extend(crate::api::findings(root, false)?);
     Ok(findings)
 }
 
