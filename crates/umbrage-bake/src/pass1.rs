@@ -38,7 +38,7 @@ pub fn bake<'a, R: DepthRule>(
     Pass { view, fine: view, rule, masks: &masks, front: BY_WINDING }.run(&bins, cull)
 }
 
-/// [`bake`] with `axis` × `axis` samples a texel, all of whose fragments count for the texel: what *hits* it, not what lies at one place
+/// [`bake`] with `axis` × `axis` samples per texel, all of whose fragments count for the texel: what *hits* it, not what lies at one place
 /// (Woo 1992).
 ///
 /// First depths then are the nearest over the texel. Midpoints need [`SameSurface::Surface`](umbrage_depth::SameSurface::Surface), as one surface has several

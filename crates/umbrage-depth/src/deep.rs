@@ -98,7 +98,7 @@ impl DepthMap for DeepMap {
         Some(self)
     }
 
-    /// 16 a surface: its depth and three transmittances. The table that finds a texel's surfaces, 8 a texel, is left out as everywhere.
+    /// 16 per surface: its depth and three transmittances. The table that finds a texel's surfaces, 8 per texel, is left out as everywhere.
     fn bytes(&self) -> usize {
         size_of_val(self.steps.as_slice())
     }

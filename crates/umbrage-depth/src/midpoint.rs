@@ -15,7 +15,7 @@ use umbrage_plane::{Decode, Facet};
 pub struct Midpoint {
     /// Where between the two: 0 excluded, ½ is Woo's, 1 is the second surface.
     pub ratio: f32,
-    /// Surfaces whose distances differ by no more than this share of the larger are one.
+    /// Surfaces whose distances differ by no more than this fraction of the larger are one.
     pub merge: f32,
     /// Which fragments belong to one surface.
     pub same: SameSurface,

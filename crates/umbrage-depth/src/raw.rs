@@ -3,11 +3,11 @@ use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use umbrage_plane::{TexelRect, View};
 
-/// Why depths are no map.
+/// Why depths are not a map.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MapError {
-    /// Not one depth a texel.
+    /// Not one depth per texel.
     #[error("{found} depths given for a map of {width} x {height} texels")]
     Length {
         /// Columns of the view.
@@ -17,7 +17,7 @@ pub enum MapError {
         /// Number of depths given.
         found: usize,
     },
-    /// NaN or −∞, which are no depths.
+    /// NaN or −∞, which are not depths.
     #[error("texel ({}, {}) holds {value}, which is not a depth", .texel.x, .texel.y)]
     NotADepth {
         /// The first such texel, by rows from the top.

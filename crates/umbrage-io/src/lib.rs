@@ -20,6 +20,8 @@
 //! Files are not trusted: sizes are checked against the file's length and a budget before memory is taken, and every fault
 //! is one line that names file, field and value. Of the crates that know pictures and maps only this one opens files.
 //!
+//! The [conventions](umbrage_plane#conventions) are those of `umbrage-plane`. This crate computes no shadow and reads no scene. It has no features.
+//!
 //! ```
 //! use glam::{UVec2, Vec3};
 //!

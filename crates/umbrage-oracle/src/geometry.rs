@@ -25,7 +25,7 @@ pub struct Body {
     pub casts: bool,
     /// The closed boundary of a solid; false for an open sheet, and where its cover has holes or blends.
     pub solid: bool,
-    /// Share of the light that passes one surface of it, linear RGB in 0..=1; 0, the default, is opaque. Where its cover blends
+    /// Fraction of the light that passes one surface of it, linear RGB in 0..=1; 0, the default, is opaque. Where its cover blends
     /// it is what passes at an alpha of 1.
     pub passes: Vec3,
 }

@@ -19,8 +19,8 @@
 //! assert_eq!(truth.at(&SurfacePoint::at(Vec3::X * 3.0, Vec3::Y)), 0.0);
 //! ```
 //!
-//! Conventions are those of `umbrage-plane`: 1 is dark, rows from the top, texel and pixel centres at +½. Nothing here
-//! draws or opens a file.
+//! The [conventions](umbrage_plane#conventions) are those of `umbrage-plane`. Nothing here draws or opens a file. It has no
+//! features.
 
 mod bias;
 mod diagnose;

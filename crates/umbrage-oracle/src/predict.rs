@@ -5,7 +5,7 @@
 use umbrage_depth::Stored;
 use umbrage_plane::{Kind, View};
 
-/// Share of a lit plane in false shadow under nearest look-up, bias drawn uniformly from `bias.0..=bias.1`.
+/// Fraction of a lit plane in false shadow under nearest look-up, bias drawn uniformly from `bias.0..=bias.1`.
 ///
 /// `g1`, `g2` ≥ 0 are the plane's depth steps per texel along the map's axes (τ·tanθ·|cosφ|, τ·tanθ·|sinφ|), in either
 /// order. Equal biases mean a constant one. On a plane square to the light (both steps 0) nothing is false unless the
@@ -72,12 +72,12 @@ pub fn float_step(view: &View, zeta: f64) -> f64 {
     }
 }
 
-/// Variance of the mean of `samples` independent samples of a region of which the share `dark` is in shadow.
+/// Variance of the mean of `samples` independent samples of a region of which the fraction `dark` is in shadow.
 pub fn uniform_variance(dark: f64, samples: u32) -> f64 {
     dark * (1.0 - dark) / f64::from(samples)
 }
 
-/// Variance of the mean of `n` × `n` jittered samples crossed by an axis-parallel edge that leaves the share `dark` in
+/// Variance of the mean of `n` × `n` jittered samples crossed by an axis-parallel edge that leaves the fraction `dark` in
 /// shadow: f(1−f)/n³ with f the edge's place within its stratum.
 pub fn jitter_variance(dark: f64, n: u32) -> f64 {
     let n = f64::from(n);
@@ -112,7 +112,7 @@ pub fn terminator_shift(radius: f64, bias: f64) -> f64 {
     (bias / (2.0 * radius)).asin()
 }
 
-/// Share of a sphere's disc that is lit, seen orthographically with the light at `angle` from the direction to the
+/// Fraction of a sphere's disc that is lit, seen orthographically with the light at `angle` from the direction to the
 /// observer.
 pub fn lit_share(angle: f64) -> f64 {
     0.5 * (1.0 + angle.cos())
@@ -174,7 +174,7 @@ pub fn penumbra_tangent(diameter: f64, occluder: f64, receiver: f64) -> f64 {
     0.5 * diameter * (1.0 / occluder - 1.0 / receiver)
 }
 
-/// Share of its largest radius that Bunnell & Pellacini's soft shadow uses, 0..1 (Burley 2006). With a largest radius of
+/// Fraction of its largest radius that Bunnell & Pellacini's soft shadow uses, 0..1 (Burley 2006). With a largest radius of
 /// diameter / 2·occluder it is [`penumbra_tangent`].
 pub fn soft_radius_share(occluder: f64, receiver: f64) -> f64 {
     ((receiver - occluder) / receiver).clamp(0.0, 1.0)
@@ -187,6 +187,6 @@ pub fn disc_edge(offset: f64) -> f64 {
     (x.acos() - x * (1.0 - x * x).sqrt()) / std::f64::consts::PI
 }
 
-/// 10–90 % width of the penumbra of a straight edge under a disc light, as a share of its full width: where
+/// 10–90 % width of the penumbra of a straight edge under a disc light, as a fraction of its full width: where
 /// [`disc_edge`] is a tenth.
 pub const DISC_EDGE_10_90: f64 = 0.687_048_826_132_540_5;

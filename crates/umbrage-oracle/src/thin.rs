@@ -6,7 +6,7 @@ use umbrage_depth::{SameSurface, Stored};
 use umbrage_plane::View;
 use umbrage_scene::{Light, Mesh, Object, Scene};
 
-/// Asks each triangle in the light, no steeper than the plan says, how far behind its middle the object ends; tells of
+/// Asks each triangle in the light, no steeper than the plan says, how far behind its middle the object ends; reports
 /// the one whose depth step is worst for its thickness (Wang & Molnar 1994).
 ///
 /// The first surface has no guard but the bias, and sheets have no thickness: neither is asked. Nor are smooth pieces that

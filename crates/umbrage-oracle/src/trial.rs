@@ -77,7 +77,7 @@ impl TriedBias {
     }
 }
 
-/// What a bias leaves wrong; shares from 0 to 1.
+/// What a bias leaves wrong; fractions from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct BiasShares {
     /// Mean shadow on the pixels that truth has lit.
@@ -231,7 +231,7 @@ fn texels(map: &impl DepthMap, point: &SurfacePoint, radius: f64, bias: impl Fn(
     texels
 }
 
-/// Bits behind the point of a pixel's share.
+/// Bits behind the point of a pixel's fraction.
 const SHIFT: u32 = 32;
 /// The least N·L of a pixel that is judged.
 const LEAST_FACING: f32 = 0.02;

@@ -68,7 +68,7 @@ impl Footprint {
         [((b - a) + (c - d)) * 0.25, ((d - a) + (c - b)) * 0.25]
     }
 
-    /// Twice-signed area of the quadrilateral divided by the area of its bounding box, as a share in 0..=1; 0 for a degenerate box.
+    /// Twice-signed area of the quadrilateral divided by the area of its bounding box, as a fraction in 0..=1; 0 for a degenerate box.
     pub fn quad_share(&self) -> f32 {
         let [a, b, c, d] = self.corners;
         let area = 0.5 * (c - a).perp_dot(d - b).abs();

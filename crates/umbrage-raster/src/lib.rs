@@ -31,7 +31,8 @@
 //!   snapping, its neighbours then overlap it, and only the snapped orientation cancels one of them.
 //! * What a facet covers is a function of the view and the triangle; neither tiles, windows nor the order of calls change it.
 //!
-//! Conventions are those of [`umbrage_plane`]. This crate knows no depth test and no shadow; it does not clamp depths to the near plane
+//! The [conventions](umbrage_plane#conventions) are those of `umbrage-plane`. This crate has no features.
+//! It knows no depth test and no shadow; it does not clamp depths to the near plane
 //! either: a facet's key nearer than `view.key(view.near())` is for the depth pass to clamp. In perspective nothing can be
 //! projected at the light itself: what is nearer than 1/1024 of the near distance is cut off, and counted
 //! ([`Stats::too_near`]).
@@ -94,7 +95,7 @@ pub enum Cull {
 /// What became of the triangles that were given.
 ///
 /// Each is kept or counted in exactly one of `not_finite`, `zero_area`, `culled`, `outside` and `missed`;
-/// `clipped` and `before_near` tell of those that were kept.
+/// `clipped` and `before_near` count some of those that were kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Stats {
     /// Triangles given.

@@ -18,9 +18,12 @@
 //! let baked = bake(&light, Soup::casters(&scene, &light).triangles(), &First, Cull::None);
 //! let shadow = bind(presets::reeves87().filter, &baked.map, Storage::Tiled);
 //! let image = picture(&scene, &[&*shadow], &Frame::default());
-//! assert!(image.shadow[0].iter().any(|&share| share > 0.9));
+//! assert!(image.shadow[0].iter().any(|&fraction| fraction > 0.9));
 //! # Ok::<(), umbrage_plane::ViewError>(())
 //! ```
+//!
+//! The [conventions](umbrage_plane#conventions) are those of `umbrage-plane`. A pinhole camera, direct light, diffuse and specular
+//! shading: enough of a renderer to judge a shadow by, and no more. It opens no file and has no features.
 
 mod camera;
 mod exposure;

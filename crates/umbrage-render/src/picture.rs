@@ -13,8 +13,8 @@ use umbrage_shadow::Shadow;
 /// How the camera's picture is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame {
-    /// Visibility samples a pixel along each axis: 1, 2, 4 or 8 (other values count as the next lower of these). All samples of a
-    /// picture are one grid of at most 32,768 a side: pictures too large for that are drawn with as many as fit.
+    /// Visibility samples per pixel along each axis: 1, 2, 4 or 8 (other values count as the next lower of these). All samples of a
+    /// picture are one grid of at most 32,768 per side: pictures too large for that are drawn with as many as fit.
     pub axis: u32,
     /// Samples jittered within their cells instead of at cell centres.
     pub stochastic: bool,
@@ -30,7 +30,7 @@ pub struct Frame {
 }
 
 impl Default for Frame {
-    /// 16 stochastic samples a pixel, shaded once per surface.
+    /// 16 stochastic samples per pixel, shaded once per surface.
     fn default() -> Self {
         Self { axis: 4, stochastic: true, every_sample: false, smooth: false, seed: 0, number: 0 }
     }
@@ -78,7 +78,7 @@ pub struct Picture {
     pub facing: Vec<Vec<f32>>,
     /// The object of the pixel's largest region, or [`NOTHING`].
     pub object: Vec<u32>,
-    /// Share of the pixel's samples that meet that object.
+    /// Fraction of the pixel's samples that meet that object.
     pub share: Vec<f32>,
     /// Position of that region, world space; NaN where nothing is seen.
     pub position: Vec<DVec3>,
@@ -145,7 +145,7 @@ struct Pixel {
     covered: f32,
     shadow: Vec<f32>,
     facing: Vec<f32>,
-    /// Objects met, each with its share of the samples.
+    /// Objects met, each with its fraction of the samples.
     objects: Vec<(u32, f32)>,
     best: f32,
     point: SurfacePoint,
@@ -245,7 +245,7 @@ impl Pixel {
         }
     }
 
-    /// The share of the samples that meet the object of the largest region.
+    /// The fraction of the samples that meet the object of the largest region.
     fn share(&self) -> f32 {
         self.objects.iter().find(|(object, _)| *object == self.point.object).map_or(0.0, |(_, share)| *share)
     }

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 
-/// `figure.json`: the record, and what tells whether it may be used again.
+/// `figure.json`: the record, and what shows whether it may be used again.
 #[derive(Serialize, Deserialize)]
 struct Kept {
     /// Stands for the program that made the figure.

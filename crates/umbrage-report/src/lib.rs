@@ -21,6 +21,8 @@
 //! assert_eq!(run.make()?.count(Verdict::Reproduced), 1);
 //! # Ok::<(), anyhow::Error>(())
 //! ```
+//!
+//! This crate opens files in the run's own folder only. It has no features.
 
 pub mod diagram;
 mod folder;

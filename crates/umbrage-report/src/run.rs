@@ -26,7 +26,7 @@ pub struct Run<'a> {
     pub entries: Vec<Entry<'a>>,
     /// The ids of the figures that are made; none makes all. The others stay on the page if the folder holds them.
     pub only: Vec<String>,
-    /// Smaller pictures and fewer samples: a figure of which nothing is judged is no fault then.
+    /// Smaller pictures and fewer samples: a figure of which nothing is judged is not a fault then.
     pub quick: bool,
     /// Stands for all that the entries' pictures and numbers depend on beside this program, in words: a figure that was made
     /// with other settings is made again.

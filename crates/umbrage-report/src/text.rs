@@ -72,7 +72,7 @@ pub fn html(text: &str) -> String {
     out
 }
 
-/// A number at the start of `text` as it is printed, and how many letters it was; `None` for a hyphen that is no sign.
+/// A number at the start of `text` as it is printed, and how many letters it was; `None` for a hyphen that is not a sign.
 fn number(text: &[char], before: Option<char>) -> Option<(String, usize)> {
     let digits = |from: usize| text[from..].iter().take_while(|one| one.is_ascii_digit()).count();
     let point = |at: usize| text.get(at) == Some(&'.') && digits(at + 1) > 0;

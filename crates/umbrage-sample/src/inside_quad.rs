@@ -6,7 +6,7 @@ use umbrage_plane::Footprint;
 /// Inside the region's own boundary, by rejection: [`Jittered`] over the bounding box, without the taps that fall outside
 /// the quadrilateral (Reeves 1987, Fig. 3d).
 ///
-/// The number of taps varies with the quadrilateral's share of its box. When none falls inside, one tap is taken at the
+/// The number of taps varies with the fraction of its box that the quadrilateral covers. When none falls inside, one tap is taken at the
 /// centroid. Quadrilaterals that are not convex, cross themselves or have no area are sampled as
 /// their bounding box.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

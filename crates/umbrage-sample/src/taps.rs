@@ -61,7 +61,7 @@ pub struct Tap {
     pub weight: f32,
 }
 
-/// Calls `each` with every tap of a region, in order; at least once. The base of filters over things that are no depths (Reeves 1987).
+/// Calls `each` with every tap of a region, in order; at least once. The base of filters over things that are not depths (Reeves 1987).
 ///
 /// The taps are those of [`Pattern::taps`], bit for bit, whatever instructions the machine has.
 pub fn each_tap(pattern: &impl Pattern, region: &Footprint, key: Key, each: impl FnMut(&Tap)) {

@@ -84,7 +84,7 @@ pub struct Object {
     /// True for the closed boundary of a solid, false for an open, two-sided surface. Where the [cover](Self::cover) has holes, or
     /// blends, it counts as false: see [`Object::is_solid`].
     pub solid: bool,
-    /// Share of the light that passes one surface of it, linear RGB in 0..=1: 0 is opaque. Only deep maps and rays know of it;
+    /// Fraction of the light that passes one surface of it, linear RGB in 0..=1: 0 is opaque. Only deep maps and rays know of it;
     /// a closed solid has two surfaces in the way. Where the [cover](Self::cover) blends it is what passes at an alpha of 1.
     pub passes: Vec3,
     /// What its texture adds to [`Object::material`] and [`Object::passes`]: colour, holes, and alpha that lets light pass.

@@ -79,6 +79,8 @@ fn apart(before: Last, this: Last) -> bool {
 fn grouped(group: &proc_macro2::Group, is_list: bool) -> String {
     let inner = text(&group.stream().into_iter().collect::<Vec<_>>());
     match group.delimiter() {
+        // The comma before a bracket on a line of its own; that of a tuple of one is part of it.
+        Delimiter::Parenthesis if inner.contains(", ") => format!("({})", inner.trim_end_matches(',')),
         Delimiter::Parenthesis => format!("({inner})"),
         Delimiter::Bracket => format!("[{inner}]"),
         Delimiter::Brace if is_list || inner.is_empty() => format!("{{{}}}", inner.trim_end_matches(',')),

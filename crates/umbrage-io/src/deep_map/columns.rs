@@ -25,7 +25,7 @@ pub(super) enum Light {
 #[derive(Debug)]
 pub(super) struct Columns {
     pub(super) depth: Column,
-    /// The depth at which a sample ends, where it is no surface.
+    /// The depth at which a sample ends, where it is not a surface.
     pub(super) back: Option<Column>,
     pub(super) light: Light,
     /// Bytes of one sample of all channels.

@@ -82,7 +82,7 @@ pub fn read_deep_map_within(path: &Path, most_steps: u64) -> Result<DeepMap, IoE
 /// As [`read_deep_map_within`], from bytes.
 ///
 /// # Errors
-/// A [`Fault`], when the bytes are no deep map of that size.
+/// A [`Fault`], when the bytes are not a deep map of that size.
 pub fn decode_deep_map(bytes: &[u8], most_steps: u64) -> Result<DeepMap, Fault> {
     let parts = Parts::read(bytes, bytes.len() as u64, u64::MAX)?;
     let map = only(&parts)?;

@@ -64,7 +64,7 @@ pub(crate) fn deep(
 /// One part of deep scan lines, stored without loss.
 fn check_form(header: &Header) -> Result<(), Fault> {
     if !header.deep {
-        return Err(Fault::new("type", "flat", "a deep map has several depths a texel"));
+        return Err(Fault::new("type", "flat", "a deep map has several depths per texel"));
     }
     if header.blocks != BlockDescription::ScanLines {
         return Err(Fault::new("type", "deeptile", "deep maps are read from deepscanline only"));

@@ -18,9 +18,9 @@ use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
 ///
 /// It answers as the [`Raw`](umbrage_depth::Raw) map of [`read_shadow_map`](crate::read_shadow_map) does, bit for bit, whatever
 /// the number of pages and threads. Texels outside the file's data window are +∞ and need no page. Memory: the pages, one more for
-/// each thread that looks (its last one, kept until the thread looks at another), 12 bytes a tile for finding them, the header.
+/// each thread that looks (its last one, kept until the thread looks at another), 12 bytes per tile for finding them, the header.
 ///
-/// A look-up cannot fail, but a file can: the first tile that cannot be read is told by [`PagedHandle::error`]. From then on nothing is
+/// A look-up cannot fail, but a file can: the first tile that cannot be read is reported by [`PagedHandle::error`]. From then on nothing is
 /// read and every look-up answers +∞, so that whoever opened the map asks once per bucket and throws the picture away.
 ///
 /// What is checked: at open all that [`read_shadow_map`](crate::read_shadow_map) checks of header and offset table, and all that it
@@ -65,7 +65,7 @@ impl Paged {
     ///
     /// # Errors
     /// [`IoError`]: one line with the file, the field and its value, when `pages` is 0, the system refuses, header or offset table are
-    /// damaged or hostile, or the file is no tiled shadow map.
+    /// damaged or hostile, or the file is not a tiled shadow map.
     pub fn open(path: &Path, pages: usize) -> Result<(Self, PagedHandle), IoError> {
         let (pager, view, stored) = Pager::open(path, pages)?;
         let pager = Arc::new(pager);

@@ -88,7 +88,7 @@ pub fn read_shadow_map_within(path: &Path, most_texels: u64) -> Result<Raw, IoEr
 /// As [`read_shadow_map_within`], from bytes.
 ///
 /// # Errors
-/// A [`Fault`], when the bytes are no shadow map of that size.
+/// A [`Fault`], when the bytes are not a shadow map of that size.
 pub fn decode_shadow_map(bytes: &[u8], most_texels: u64) -> Result<Raw, Fault> {
     let parts = Parts::read(bytes, bytes.len() as u64, u64::MAX)?;
     let map = only(&parts)?;

@@ -104,7 +104,7 @@ pub(crate) fn stored_window(map: &impl DepthMap) -> TexelRect {
     if window.is_empty() { one(IVec2::ZERO) } else { window }
 }
 
-/// A channel of floats, one a texel or deep.
+/// A channel of floats, one per texel or deep.
 fn channel(name: &str) -> ChannelDescription {
     ChannelDescription {
         name: Text::from(name),

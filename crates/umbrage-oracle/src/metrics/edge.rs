@@ -17,7 +17,7 @@ pub struct Band {
 }
 
 impl Band {
-    /// The strip about the edge from `a` to `b` (pixels), the shadow on the side that `dark` lies on; four bins a pixel.
+    /// The strip about the edge from `a` to `b` (pixels), the shadow on the side that `dark` lies on; four bins per pixel.
     pub fn between(a: DVec2, b: DVec2, dark: DVec2, half_width: f64) -> Self {
         let across = (b - a).perp().normalize_or(DVec2::X);
         let normal = if across.dot(dark - a) < 0.0 { -across } else { across };

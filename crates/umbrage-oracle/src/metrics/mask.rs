@@ -79,7 +79,7 @@ pub fn both(a: &[bool], b: &[bool]) -> Vec<bool> {
     a.iter().zip(b).map(|(&a, &b)| a && b).collect()
 }
 
-/// The share of `of`'s pixels that are in `mask` too. `None` when `of` is empty.
+/// The fraction of `of`'s pixels that are in `mask` too. `None` when `of` is empty.
 pub fn share(mask: &[bool], of: &[bool]) -> Option<f64> {
     let all = count(of);
     (all > 0).then(|| count(&both(mask, of)) as f64 / all as f64)

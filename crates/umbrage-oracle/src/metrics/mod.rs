@@ -15,7 +15,7 @@
 //! | contact gap | [`contact_gap`] |
 //! | leak | [`dark_mask`], [`leak`] |
 //! | where second depth is judged | [`silhouette_distance`] |
-//! | share of pixels | [`share`] |
+//! | fraction of pixels | [`share`] |
 //! | how far a shadow is moved | [`displacement`] |
 
 mod contour;
@@ -39,7 +39,7 @@ pub use silhouette::silhouette_distance;
 pub use spectrum::{Spectrum, spectrum};
 pub use statistics::{distinct_levels, false_shadow, leak, levels_per_region, lone_pixels, mean, rms};
 
-/// An image of one number a pixel, rows from the top.
+/// An image of one number per pixel, rows from the top.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid<'a> {
     /// The pixels. What does not fill a last row is ignored.

@@ -112,7 +112,7 @@ pub fn low_pass(size: UVec2, image: &[f32], repeats: u32) -> Vec<f32> {
 
 /// Applies a shadow image to a finished picture: colour · (1 − density · shadow) (Williams 1978).
 ///
-/// Highlights are dimmed, not removed: the known flaw of this mode. `density` is 1 less the ambient share; 1 gives black shadows.
+/// Highlights are dimmed, not removed: the known flaw of this mode. `density` is 1 less the ambient fraction; 1 gives black shadows.
 pub fn darken(colour: &[Vec3], shadow: &[f32], density: f32) -> Vec<Vec3> {
     colour.iter().zip(shadow).map(|(colour, shadow)| *colour * (1.0 - density * shadow)).collect()
 }
