@@ -14,13 +14,15 @@
 //! # Ok::<(), umbrage_recipe::RecipeError>(())
 //! ```
 //!
-//! A filter made by hand is put over a map by [`bind`].
+//! A filter made by hand is put over a map by [`bind`]. The [guide](guide) leads from a renderer to shadows, by this crate and those below it.
 
 mod bake;
 mod bind;
 mod error;
 mod field;
 mod fields;
+#[doc = include_str!("../GUIDE.md")]
+pub mod guide {}
 mod kind;
 mod light;
 mod moments;
