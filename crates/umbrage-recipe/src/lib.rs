@@ -14,7 +14,7 @@
 //! # Ok::<(), umbrage_recipe::RecipeError>(())
 //! ```
 //!
-//! A filter made by hand is put over a map by [`bind`]. The [guide](guide) leads from a renderer to shadows, by this crate and those below it.
+//! A filter made by hand is put over a map by [`bind`]. The [guide] leads from a renderer to shadows, by this crate and those below it.
 
 mod bake;
 mod bind;
