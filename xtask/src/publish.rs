@@ -116,6 +116,19 @@ mod tests {
     }
 
     #[test]
+    fn the_citation_states_the_version_of_the_workspace() {
+        let read = |file: &str| std::fs::read_to_string(crate::root().join(file)).unwrap();
+        let manifest: Table = read("Cargo.toml").parse().unwrap();
+        let version = manifest["workspace"]["package"]["version"].as_str().unwrap();
+        assert!(read("CITATION.cff").contains(&format!("\nversion: {version}\n")), "{version}");
+        for (name, dependency) in manifest["workspace"]["dependencies"].as_table().unwrap() {
+            if let Some(stated) = dependency.get("version").filter(|_| dependency.get("path").is_some()) {
+                assert_eq!(stated.as_str(), Some(version), "{name}");
+            }
+        }
+    }
+
+    #[test]
     fn libraries_and_the_command_inherit_the_switch_and_what_only_this_repository_needs_does_not() {
         let names = published(&crate::root()).unwrap();
         for name in ["umbrage-cli", "umbrage-plane", "umbrage-report", "umbrage-shadow"] {

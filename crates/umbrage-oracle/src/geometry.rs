@@ -37,9 +37,9 @@ pub struct Hit {
     pub t: f64,
     /// Index of the face in [`Geometry::faces`].
     pub face: u32,
-    /// Its object.
+    /// The id of its object.
     pub object: u32,
-    /// World space.
+    /// Where it lies, in world space.
     pub position: DVec3,
     /// Unit normal on the outside (the counter-clockwise side), whichever side was met.
     pub normal: DVec3,

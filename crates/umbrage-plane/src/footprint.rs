@@ -10,7 +10,7 @@ pub struct Footprint {
     pub centre: Vec2,
     /// Half of the bounding box's width and height, ≥ 0.
     pub half: Vec2,
-    /// The region's corners in order around it. All equal for a point.
+    /// The region's corners in order around it, in texels. All equal for a point.
     pub corners: [Vec2; 4],
 }
 

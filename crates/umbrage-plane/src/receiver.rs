@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 /// offsets from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
-    /// Its centre.
+    /// Its centre, in world space.
     pub position: DVec3,
     /// Geometric unit normal, on the side that is looked at.
     pub normal: Vec3,
@@ -94,7 +94,7 @@ pub struct Receiver {
     pub slope: f32,
     /// Id of the object.
     pub object: u32,
-    /// The centre in the light's eye space.
+    /// The centre in the light's eye space, in world units.
     pub eye: DVec3,
     /// The unit normal in the light's eye space.
     pub normal: DVec3,

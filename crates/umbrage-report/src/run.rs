@@ -31,7 +31,7 @@ pub struct Run<'a> {
     /// Stands for all that the entries' pictures and numbers depend on beside this program, in words: a figure that was made
     /// with other settings is made again.
     pub settings: String,
-    /// Worker threads; `None` is one a core. They must change no bit.
+    /// Worker threads; `None` is one per core. They must change no bit.
     pub threads: Option<usize>,
     /// The folder that is filled.
     pub out: PathBuf,

@@ -41,17 +41,17 @@ pub struct Score {
     pub judged: usize,
     /// Root mean square difference from truth, in units of shadow.
     pub rms: Option<f64>,
-    /// Share that is dark and should be lit.
+    /// Fraction of the judged pixels' area that is dark and should be lit.
     pub false_shadow: Option<f64>,
-    /// Share that is lit and should be dark.
+    /// Fraction of the judged pixels' area that is lit and should be dark.
     pub false_light: Option<f64>,
-    /// Fraction of acne.
+    /// The part of false shadow that is acne.
     pub acne: Option<f64>,
-    /// Fraction of detachment; 0 for a recipe without bias, `None` for a foreign image.
+    /// The part of false light that is detachment; 0 for a recipe without bias, `None` for a foreign image.
     pub detachment: Option<f64>,
     /// How far blockers are from the receivers that were detached from them; `None` where none was.
     pub detached: Option<Size>,
-    /// Fraction of leaks; `None` for a foreign image.
+    /// The part of false light that leaks; `None` for a foreign image.
     pub leak: Option<f64>,
     /// Standard deviation under several keys of randomness, mean over the judged pixels, in units of shadow; `None` with one key alone.
     pub noise: Option<f64>,
