@@ -72,7 +72,7 @@ impl Bias {
 /// A surface point as a light sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Receiver {
-    /// What its depth means; a map of another kind must not be asked about it.
+    /// What its depth means; it must not be compared with depths of another kind.
     pub kind: Kind,
     /// The region's image in the map.
     pub footprint: Footprint,

@@ -11,7 +11,7 @@ const SIDE: i32 = BIN as i32;
 
 /// Triangles sorted into the tiles of a view.
 ///
-/// Tile (i, j) holds texels 32 i ≤ x < 32 (i + 1), 32 j ≤ y < 32 (j + 1), whatever the window. About 64 bytes a triangle kept, and 4 for each tile it reaches.
+/// Tile (i, j) holds texels 32 i ≤ x < 32 (i + 1), 32 j ≤ y < 32 (j + 1), whatever the window. About 64 bytes for each triangle that is kept, and 4 for each tile it reaches.
 #[derive(Clone, Debug)]
 pub struct Bins {
     sampling: Sampling,

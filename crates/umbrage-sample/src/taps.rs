@@ -10,7 +10,7 @@ pub struct Taps<S: Simd> {
     pub x: f32x16<S>,
     /// Rows, in texel space.
     pub y: f32x16<S>,
-    /// One uniform number in \[0, 1) a tap, for what the receiver's depth draws (a bias).
+    /// One uniform number in \[0, 1) for each tap, for what the receiver's depth draws (a bias).
     pub u: f32x16<S>,
     /// Bit i set: tap i takes part; bits 16 and up are 0. The others hold positions that may be read but do not count.
     pub mask: u32,
