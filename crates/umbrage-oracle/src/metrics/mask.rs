@@ -1,7 +1,7 @@
 use super::Grid;
 use glam::DVec2;
 
-/// Pixels on which shadow would be false: truth is 0, the cosine to the light exceeds `min_facing` (§9 uses .05),
+/// Pixels on which shadow would be false: truth is 0, the cosine to the light exceeds `min_facing` (the figures use .05),
 /// and nothing darker than 0 in truth lies within `border` pixels, the filter's width.
 pub fn lit_mask(truth: Grid, facing: &[f32], border: usize, min_facing: f32) -> Vec<bool> {
     settled(truth, facing, border, min_facing, |truth| truth == 0.0)
