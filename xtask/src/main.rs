@@ -35,7 +35,7 @@ Commands:
   help     Print this
 ";
 
-/// What the command line asks for.
+/// What the command line wants.
 #[derive(Debug, PartialEq, Eq)]
 enum Chore {
     /// The figures' program with these arguments.

@@ -8,7 +8,7 @@ use umbrage_plane::{Decode, Facet};
 ///
 /// The depth is averaged in world distance along the axis whatever the map's kind. Surfaces that coincide count as one,
 /// or shared edges and sheets would store their own depth and shadow themselves. Whether two coincide is
-/// asked of the nearest alone, in a second pass; merging them as they arrive would depend on their order. Where the two smallest
+/// tested with the nearest alone, in a second pass; merging them as they arrive would depend on their order. Where the two smallest
 /// keys already are apart, no second pass is needed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]

@@ -9,7 +9,7 @@ const AREA: usize = (TILE * TILE) as usize;
 const SHIFT: u32 = TILE.trailing_zeros();
 /// What a tile that is left out stands for.
 static EMPTY: [f32; AREA] = [f32::INFINITY; AREA];
-/// More tiles than this are not asked for their range.
+/// The ranges of more tiles than this are not looked at.
 const MOST_ASKED: u32 = 64;
 /// What the first range is united with; never leaves this module.
 const NONE_YET: DepthRange = DepthRange { min: f32::INFINITY, max: f32::NEG_INFINITY };

@@ -166,7 +166,7 @@ fn way_out(image: Grid, contact: &Contact) -> f64 {
 }
 
 /// The contact gap without a picture: the distance in world units from `foot` along `direction` (in its plane, need not be unit) to
-/// the first point that is at least half in shadow, asked every `step` and halved down to a 64th of it.
+/// the first point that is at least half in shadow, sampled every `step` and halved down to a 64th of it.
 ///
 /// Each point is a region of its own, with the footprint of `foot` carried along. 0 when `foot` itself is in shadow;
 /// `None` when there is no shadow within `limit`.
@@ -195,7 +195,7 @@ pub fn gap_on_surface(
 }
 
 /// The profile of an edge without a picture: the shadow along a line of a surface, `half_width` world units to either side of `middle` toward
-/// `into_shadow` (in the surface's plane, need not be unit), asked at `points` places evenly, both ends included.
+/// `into_shadow` (in the surface's plane, need not be unit), sampled at `points` places evenly, both ends included.
 ///
 /// Distances are world units from `middle`, positive toward `into_shadow`. Each point is a region of its own, with the
 /// footprint of `middle` carried along. Empty when there is no direction, or fewer than 2 points. [`Profile::width`]

@@ -21,7 +21,7 @@ pub struct Face {
 /// What an object's id stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Body {
-    /// Drawn into depth maps. Truth asks for it only under [`Truth::casters_only`](crate::Truth::casters_only).
+    /// Drawn into depth maps. Truth regards it only under [`Truth::casters_only`](crate::Truth::casters_only).
     pub casts: bool,
     /// The closed boundary of a solid; false for an open sheet, and where its cover has holes or blends.
     pub solid: bool,
@@ -48,7 +48,7 @@ pub struct Hit {
 /// A scene's triangles, ready for rays. obvhs builds the tree; rays walk it in f64.
 ///
 /// Positions are the f32 numbers of the scene, relative to its origin; everything after them is f64, and points and directions
-/// that are asked about are of world space. No ray slips between triangles
+/// that queries take are of world space. No ray slips between triangles
 /// that share an edge or a vertex (Woop, Benthin & Wald 2013); a ray through the edge itself meets both. Where the
 /// [`Cover`] of a scene's object says that nothing is there, no ray meets it.
 ///
@@ -83,7 +83,7 @@ pub(crate) struct Place {
 
 impl Place {
     /// Moved by its rounding, which [`Geometry::holds`] allows for: what lies in the plane of a facet that is edge-on to the light
-    /// is then on the side of it that is asked about.
+    /// is then on the side of it that the query is about.
     pub(crate) fn lifted(self, normal: DVec3) -> Self {
         Self { at: self.at + normal * self.rounding, ..self }
     }

@@ -14,7 +14,7 @@ pub struct Plan {
     /// How midpoints are found, where these are what it keeps.
     pub midpoint: Midpoint,
     /// Tangent of the steepest angle between a caster's surface and the map's plane that must be free of error, ≥ 0 (Wang & Molnar 1994).
-    /// 0 does not ask.
+    /// With 0 it is not examined.
     pub slope: f64,
     /// Half-extent of the filter, texels.
     pub filter_half: f64,

@@ -6,10 +6,10 @@ use umbrage_depth::{SameSurface, Stored};
 use umbrage_plane::View;
 use umbrage_scene::{Light, Mesh, Object, Scene};
 
-/// Asks each triangle in the light, no steeper than the plan says, how far behind its middle the object ends; reports
+/// Examines each triangle in the light, no steeper than the plan says, how far behind its middle the object ends; reports
 /// the one whose depth step is worst for its thickness (Wang & Molnar 1994).
 ///
-/// The first surface has no guard but the bias, and sheets have no thickness: neither is asked. Nor are smooth pieces that
+/// The first surface has no guard but the bias, and sheets have no thickness: neither is examined. Nor are smooth pieces that
 /// are narrower than a texel: what happens there cannot be told from the silhouette beside it.
 pub(crate) fn too_thin(scene: &Scene, object: &Object, light: &Light, plan: &Plan) -> Option<Diagnostic> {
     let guarded = plan.slope > 0.0 && plan.stored != Stored::First;

@@ -186,7 +186,7 @@ impl Shadow for RayCast<'_> {
 /// All points are taken to lie on the region's tangent plane: where a region hangs over its surface's edge, so does its
 /// truth. A picture shaded at every sample with [`RayCast`] has no such points.
 pub struct AreaRegion<'a> {
-    /// What is asked at each point.
+    /// What answers at each point.
     pub ray: RayCast<'a>,
     /// Points along each axis; 16 (256 points) by default in [`AreaRegion::new`]. 0 counts as 1.
     pub across: u32,

@@ -183,7 +183,7 @@ impl View {
         Self::new(self.world_to_eye, projection, self.near, self.far, size).map(|view| view.alike(&self))
     }
 
-    /// The same placement, projection, range and size, with everything of another view that [`View::new`] does not ask for: kind, sampling,
+    /// The same placement, projection, range and size, with everything of another view that [`View::new`] does not take: kind, sampling,
     /// rules and cone.
     #[must_use]
     pub fn alike(self, other: &Self) -> Self {

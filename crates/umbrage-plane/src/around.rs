@@ -48,7 +48,7 @@ pub fn cube_face(direction: DVec3) -> (usize, DVec2) {
 pub struct Sectors {
     /// Number of views, at least 3: each sees 360°/`count` of azimuth.
     pub count: u32,
-    /// Extra azimuth that each view sees to either side, radians: as wide as the filter, so that neighbours need not be asked.
+    /// Extra azimuth that each view sees to either side, radians: as wide as the filter, so that no look-up goes on in a neighbour.
     pub margin: f64,
     /// Tangent of the highest elevation above and below the horizon that is seen.
     pub tan_elevation: f64,

@@ -15,7 +15,7 @@ pub enum Place {
     Inside,
 }
 
-/// What to answer for a place without asking the map, or to ask it.
+/// What to answer for a place without a look-up, or that a look-up answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Fraction in shadow 0.

@@ -244,7 +244,7 @@ impl View {
         if whole.half.cmple(most).all() {
             return whole;
         }
-        // A box that is cut to size must still lie around the point that is asked about.
+        // A box that is cut to size must still lie around the point that is looked up.
         let capped = whole.scaled(whole.centre, 1.0, 0.0, most);
         let shift = centre.clamp(whole.centre - whole.half + capped.half, whole.centre + whole.half - capped.half)
             - whole.centre;

@@ -2,7 +2,7 @@
 //!
 //! [`Bins`] takes the triangles of a scene as one view sees them, cuts off what lies behind the view, snaps the corners to
 //! 1/256 texel and sorts the triangles into tiles of [`BIN`]² texels. [`Bins::tile`] then reports, for each triangle that
-//! reaches a tile, exactly which texels' samples it covers, as often as it is asked and from any thread.
+//! reaches a tile, exactly which texels' samples it covers, as often as it is called and from any thread.
 //!
 //! ```
 //! use glam::{DVec3, UVec2};

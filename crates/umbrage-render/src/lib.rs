@@ -1,7 +1,7 @@
 //! Pictures from scenes, and the maps of a scene's lights: the library crate that joins scenes, maps and shadows.
 //!
 //! The reading path: a [`Soup`] is a scene's triangles for one view; [`bake`](umbrage_bake::bake) makes a light's depth map of it;
-//! [`bind`](umbrage_recipe::bind) puts a filter over the map in the storage that is asked for; [`picture`] draws the camera's image with it.
+//! [`bind`](umbrage_recipe::bind) puts a filter over the map in the storage that is given; [`picture`] draws the camera's image with it.
 //!
 //! ```
 //! use umbrage_bake::bake;

@@ -90,7 +90,7 @@ pub struct Picture {
     /// every one before it is shaded.
     pub fragments: u64,
     /// Those of them that were nearer than all before, in the scene's order: what that mode transforms when only points
-    /// that pass the depth test are asked about. The picture is the same.
+    /// that pass the depth test are looked up. The picture is the same.
     pub passing: u64,
     /// Regions shaded: points transformed to each light.
     pub regions: u64,

@@ -20,7 +20,7 @@ const MENDED: [&str; 13] = [
 const NOT_YET: [&str; 1] = ["crates/umbrage-bake/src/facets/"];
 
 /// What is written, and what is meant. Each begins and ends at the borders of words.
-const WORDS: [(&str, &str); 33] = [
+const WORDS: [(&str, &str); 39] = [
     ("depth a texel", "per texel"),
     ("depths a texel", "per texel"),
     ("bytes a texel", "per texel"),
@@ -53,6 +53,12 @@ const WORDS: [(&str, &str); 33] = [
     ("the share of", "the fraction of"),
     ("The share of", "The fraction of"),
     ("is told by", "is reported by"),
+    ("is asked", "is read, tested or evaluated"),
+    ("are asked", "are read, tested or evaluated"),
+    ("was asked", "was chosen or given"),
+    ("were asked", "were chosen or given"),
+    ("be asked", "be read, tested or evaluated"),
+    ("asks for", "needs"),
     ("tells of", "reports"),
 ];
 

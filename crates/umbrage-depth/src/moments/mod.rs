@@ -1,4 +1,4 @@
-//! Maps whose depths are filtered before they are asked about.
+//! Maps whose depths are filtered before they are looked up.
 
 mod kind;
 mod pyramid;

@@ -88,7 +88,7 @@ impl Column {
         &self.name
     }
 
-    /// True when a sample read from here may have been written as `value`; halves are other makers' and not asked.
+    /// True when a sample read from here may have been written as `value`; halves are other makers' and not checked.
     pub(super) fn holds(&self, sample: f32, value: f32) -> bool {
         self.half || sample == value
     }

@@ -21,7 +21,7 @@ use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
 /// each thread that looks (its last one, kept until the thread looks at another), 12 bytes per tile for finding them, the header.
 ///
 /// A look-up cannot fail, but a file can: the first tile that cannot be read is reported by [`PagedHandle::error`]. From then on nothing is
-/// read and every look-up answers +∞, so that whoever opened the map asks once per bucket and throws the picture away.
+/// read and every look-up answers +∞, so that whoever opened the map checks once per bucket and throws the picture away.
 ///
 /// What is checked: at open all that [`read_shadow_map`](crate::read_shadow_map) checks of header and offset table, and all that it
 /// checks of a tile when that tile is read. Not the digest: it is over the whole map, and only reading the whole map can tell that
@@ -73,7 +73,7 @@ impl Paged {
     }
 
     /// The depths of at most 32 texels; +∞ for those outside `within`. Those of one tile are answered together, so that a footprint
-    /// across tiles asks for each of them once.
+    /// across tiles fetches each of them once.
     fn depths<const N: usize>(&self, within: TexelRect, texels: [IVec2; N]) -> [f32; N] {
         const { assert!(N <= 32, "one bit a texel") };
         let mut depths = [f32::INFINITY; N];

@@ -109,7 +109,7 @@ fn crossing(pair: &[(f64, f64)], level: f64) -> Option<f64> {
 /// The distance in pixels from `foot`, going along `toward` (need not be unit), to the first shadow ≥ ½.
 ///
 /// Shadow between pixel centres is bilinear. 0 when `foot` itself is in shadow; `None` when the way leaves the image,
-/// or meets a NaN, before any. For world units ask the picture's positions at both ends.
+/// or meets a NaN, before any. For world units take the picture's positions at both ends.
 pub fn contact_gap(shadow: Grid, foot: DVec2, toward: DVec2) -> Option<f64> {
     const STEP: f64 = 0.125;
     let direction = toward.try_normalize()?;
