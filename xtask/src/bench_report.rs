@@ -31,7 +31,7 @@ Options:
       --bless         With --instructions: record what was counted
 ";
 
-/// What the command line asks for.
+/// What the command line wants.
 #[derive(Debug, PartialEq, Eq)]
 enum Wanted {
     /// The report.

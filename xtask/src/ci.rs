@@ -26,6 +26,7 @@ pub fn run(root: &Path) -> anyhow::Result<bool> {
     // A page that links nowhere is worse than none.
     steps.cargo("documentation", &["doc", "--no-deps", "--workspace"], &[("RUSTDOCFLAGS", "-D warnings")])?;
     steps.own("tidy", &["tidy"])?;
+    steps.own("packages for the registry", &["publish-check", "--no-verify"])?;
     ahead.wait().context(FIGURES)?;
     steps.tests("figures' own tests", &["test", "--release", "--package", FIGURES, "--test", "figures"], &mut tests)?;
     steps.own("quick figures", &["figures", "--quick", "--out", "target/ci-figures/quick"])?;

@@ -1,11 +1,13 @@
-//! The project's chores: `figures`, `ci`, `tidy`, `dist`, `bench-report`. This program starts others and reads sources; it uses no crate of
+//! The project's chores: `figures`, `ci`, `tidy`, `api`, `dist`, `publish-check`, `bench-report`. This program starts others and reads sources; it uses no crate of
 //! Umbrage, so that it is there in seconds.
 
+mod api;
 mod bench_report;
 mod ci;
 mod dist;
 mod figures;
 mod programs;
+mod publish;
 mod readme;
 mod tidy;
 
@@ -23,14 +25,17 @@ Commands:
            `cargo xtask figures --help` lists its options
   ci       Everything that must hold before a change is taken
   tidy     Check dependency arrows, circles of modules, allowed packages, file sizes, links and words that must not be there
-  dist     Build the command, and put it with its manual pages and completions into target/dist
+  api      Compare what the renderer's crates offer with what is kept of it; with --bless keep what they offer now
+  dist     Build the command, and pack it with its manual pages and completions: a tarball and a Debian package in target/dist
+  publish-check
+           Run the dry run of publishing all crates on a copy of the repository; with --no-verify without compiling them
   bench-report
            Measure beside other rasterisers, rays and the memory's limit, and make a table and a diagram of it;
            `cargo xtask bench-report --help` lists its options
   help     Print this
 ";
 
-/// What the command line asks for.
+/// What the command line wants.
 #[derive(Debug, PartialEq, Eq)]
 enum Chore {
     /// The figures' program with these arguments.
@@ -40,6 +45,14 @@ enum Chore {
     Ci,
     Tidy,
     Dist,
+    /// What the crates offer, compared or kept.
+    Api {
+        bless: bool,
+    },
+    /// The dry run of publishing, with every package compiled or not.
+    PublishCheck {
+        verify: bool,
+    },
     Help,
 }
 
@@ -52,6 +65,10 @@ fn chore(args: impl IntoIterator<Item = OsString>) -> Result<Chore, String> {
         Some("figures") => return Ok(Chore::Figures(rest)),
         Some("bench-report") => return Ok(Chore::BenchReport(rest)),
         Some("help" | "--help" | "-h") => return Ok(Chore::Help),
+        Some("api") if rest == ["--bless"] => return Ok(Chore::Api { bless: true }),
+        Some("api") => Chore::Api { bless: false },
+        Some("publish-check") if rest == ["--no-verify"] => return Ok(Chore::PublishCheck { verify: false }),
+        Some("publish-check") => Chore::PublishCheck { verify: true },
         Some("ci") => Chore::Ci,
         Some("tidy") => Chore::Tidy,
         Some("dist") => Chore::Dist,
@@ -80,6 +97,8 @@ fn main() -> ExitCode {
         Chore::Ci => ci::run(&root()).map(good_or_failed),
         Chore::Tidy => tidy(&root()).map(good_or_failed),
         Chore::Dist => dist::run(&root()).map(good_or_failed),
+        Chore::Api { bless } => api::run(&root(), bless).map(good_or_failed),
+        Chore::PublishCheck { verify } => publish::run(&root(), verify).map(good_or_failed),
         Chore::Help => {
             print!("{HELP}");
             Ok(ExitCode::SUCCESS)
@@ -128,7 +147,11 @@ mod tests {
         }
         assert_eq!(of(&["ci", "--help"]), Ok(Chore::Help));
         assert_eq!(of(&["dist"]), Ok(Chore::Dist));
-        let names = ["figures ", "ci ", "tidy ", "dist ", "bench-report\n"];
+        assert_eq!(of(&["publish-check"]), Ok(Chore::PublishCheck { verify: true }));
+        assert_eq!(of(&["publish-check", "--no-verify"]), Ok(Chore::PublishCheck { verify: false }));
+        assert_eq!(of(&["api"]), Ok(Chore::Api { bless: false }));
+        assert_eq!(of(&["api", "--bless"]), Ok(Chore::Api { bless: true }));
+        let names = ["figures ", "ci ", "tidy ", "api ", "dist ", "publish-check\n", "bench-report\n"];
         assert!(names.iter().all(|name| HELP.contains(&format!("\n  {name}"))));
     }
 

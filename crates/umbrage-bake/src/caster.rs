@@ -50,8 +50,8 @@ pub struct Caster<'a> {
     pub normals: Option<[Vec3; 3]>,
     /// Where its corners lie in a texture, in their order; all at (0, 0) unless given. Only its mask and its film use them.
     pub uvs: [Vec2; 3],
-    /// Who is asked, wherever the triangle would be seen, whether anything of it is there; `None` for a triangle without holes. Every
-    /// kind of map asks, at each of its samples, and a [refined](crate::bake_refined) one at the slots of its links too. Where nothing
+    /// What decides, wherever the triangle would be seen, whether anything of it is there; `None` for a triangle without holes. Every
+    /// kind of map evaluates it, at each of its samples, and a [refined](crate::bake_refined) one at the slots of its links too. Where nothing
     /// is there the sample sees what is behind, as if the triangle had not been given. Holes between samples are not seen.
     pub mask: Option<Mask<'a>>,
     /// The fraction of light that passes it where that varies over its surface; it replaces [`passes`](Self::passes). Only

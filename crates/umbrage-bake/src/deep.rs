@@ -7,7 +7,7 @@ use umbrage_depth::{DeepMap, MapError, Step, compress_steps};
 use umbrage_plane::{Facet, TexelRect, View};
 use umbrage_raster::{BIN, Bins, Cull, Stats, each_fragment};
 
-/// How a deep map is made (B06-11, EXT-2, EXT-3).
+/// How a deep map is made (Burley 2006).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deep {
     epsilon: f32,
@@ -15,7 +15,7 @@ pub struct Deep {
 }
 
 impl Deep {
-    /// The stored transmittance stands nowhere farther than `epsilon` from the gathered one; 0 keeps all. `axis` × `axis` samples a texel are
+    /// The stored transmittance stands nowhere farther than `epsilon` from the gathered one; 0 keeps all. `axis` × `axis` samples per texel are
     /// averaged: 1, 2, 4 or 8 along each side, others count as the next lower of these.
     ///
     /// # Errors
@@ -45,7 +45,7 @@ impl Deep {
         Self::new(epsilon, self.axis)
     }
 
-    /// The same with `axis` × `axis` samples a texel, as in [`Deep::new`].
+    /// The same with `axis` × `axis` samples per texel, as in [`Deep::new`].
     #[must_use]
     pub fn with_axis(self, axis: u32) -> Self {
         Self { axis: 1 << axis.clamp(1, 8).ilog2(), ..self }
@@ -87,11 +87,11 @@ pub struct BakedDeep {
 }
 
 /// Pass 1 of deep maps: a texel's transmittance is the mean over its samples and over the moments of an exposure of what all surfaces
-/// before a depth let through together ([`Caster::passes`], [`Caster::film`]; B06-11, EXT-2, EXT-3).
+/// before a depth let through together ([`Caster::passes`], [`Caster::film`]).
 ///
-/// `moments` are the triangles at evenly spread times, one of them for what is at rest; none gives an empty map. What is nearer than the near plane stands at it (C-10). The result
-/// does not depend on the number of threads. Maps too large for the samples, which are one grid of at most 32,768 a side, get as many as fit.
-#[expect(clippy::missing_panics_doc, reason = "a view has at most 32,768 texels a side, and as many samples as fit")]
+/// `moments` are the triangles at evenly spread times, one of them for what is at rest; none gives an empty map. What is nearer than the near plane stands at it. The result
+/// does not depend on the number of threads. Maps too large for the samples, which are one grid of at most 32,768 per side, get as many as fit.
+#[expect(clippy::missing_panics_doc, reason = "a view has at most 32,768 texels per side, and as many samples as fit")]
 pub fn bake_deep<'a, M>(view: &View, moments: impl IntoIterator<Item = M>, deep: &Deep) -> BakedDeep
 where
     M: IntoIterator<Item: Into<Caster<'a>>>,
@@ -220,7 +220,7 @@ fn steps(mut falls: Vec<(f32, DVec3)>, samples: f64) -> Vec<Step> {
     for level in falls.chunk_by(|a, b| a.0 == b.0) {
         lost += level.iter().map(|fall| fall.1).sum::<DVec3>();
         let left = DVec3::ONE - lost / samples;
-        // What is left of rounding is no light.
+        // What is left of rounding is not light.
         let passes = left.map(|light| if light < 1e-9 { 0.0 } else { light }).as_vec3().min(before);
         steps.push(Step { depth: level[0].0, passes });
         before = passes;

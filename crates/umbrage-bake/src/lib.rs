@@ -13,9 +13,9 @@
 //! | [`bake_tags`] | the nearest object's id per texel | Hourcade & Nicolas 1985 |
 //! | [`mix_moments`] | one map of an exposure from the maps of its moments | |
 //!
-//! A triangle's corners are all that most of them need, and they take bare [`Triangle`](umbrage_raster::Triangle)s. What some ask beyond that
+//! A triangle's corners are all that most of them need, and they take bare [`Triangle`](umbrage_raster::Triangle)s. What some need beyond that
 //! comes with a [`Caster`], which all of them take: what light it lets through, the normals of its vertices, and a [`Mask`] that says where it has
-//! holes, which every function asks at every sample.
+//! holes, which every function evaluates at every sample.
 //!
 //! ```
 //! use glam::{DVec3, IVec2, UVec2, Vec3};
@@ -40,7 +40,8 @@
 //! # Ok::<(), umbrage_plane::ViewError>(())
 //! ```
 //!
-//! The results do not depend on the number of threads, and neither on the order of the triangles.
+//! The results depend neither on the number of threads nor on the order of the triangles. The [conventions](umbrage_plane#conventions)
+//! are those of `umbrage-plane`. This crate has no features.
 
 #![warn(missing_debug_implementations)]
 

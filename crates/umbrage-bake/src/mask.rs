@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// Whether anything of a caster is at a place of it: an alpha test, where true is opaque.
 ///
-/// It is asked at samples, in no order, from several threads, and perhaps more than once at one. It must always say the same of the
+/// It is evaluated at samples, in no order, from several threads, and perhaps more than once at one. It must always say the same of the
 /// same place, or the map depends on the order. A panic of it is one of the bake.
 pub type Mask<'a> = &'a (dyn Fn(&MaskPlace) -> bool + Sync);
 

@@ -9,7 +9,7 @@ use std::fmt;
 use umbrage_plane::{Facet, View};
 use umbrage_raster::{BIN, Bins, Coverage, Triangle};
 
-/// The masks of casters that are drawn: what a bake asks, and whoever draws with [`Bins`] directly.
+/// The masks of casters that are drawn: what a bake evaluates, and whoever draws with [`Bins`] directly.
 ///
 /// ```
 /// use glam::{DVec3, UVec2, Vec3};
@@ -32,7 +32,7 @@ use umbrage_raster::{BIN, Bins, Coverage, Triangle};
 /// # Ok::<(), umbrage_plane::ViewError>(())
 /// ```
 pub struct Masks<'a> {
-    /// Its texel positions are what masks are asked at.
+    /// Its texel positions are where masks are evaluated.
     view: View,
     masked: Vec<Masked<'a>>,
     /// From triangles to `masked`, as far as the last that has a mask or a film; [`UNMASKED`] for those that have neither.
@@ -43,7 +43,7 @@ pub struct Masks<'a> {
 const UNMASKED: u32 = u32::MAX;
 
 impl<'a> Masks<'a> {
-    /// None yet; they will be asked at places of a view's map.
+    /// None yet; they will be evaluated at places of a view's map.
     pub fn new(view: &View) -> Self {
         Self { view: *view, masked: Vec::new(), index: Vec::new(), given: 0 }
     }

@@ -1,7 +1,7 @@
 use umbrage_depth::{DepthMap, Raw, Stored, Tiled};
 use umbrage_plane::{Sampling, View, mix32};
 
-/// One map of an exposure from the maps of its moments: each texel sees one of them, drawn once per texel from `seed` (EXT-2). A filter over
+/// One map of an exposure from the maps of its moments: each texel sees one of them, drawn once per texel from `seed`. A filter over
 /// such a map blurs what moves, with noise.
 ///
 /// `maps` are of `view`, at evenly spread times; none of them gives an empty map, and texels that one of them does not have are empty in it.

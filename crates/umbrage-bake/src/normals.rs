@@ -7,8 +7,8 @@ use umbrage_depth::DepthRule;
 use umbrage_plane::{Facet, Facing, TexelRect, View};
 use umbrage_raster::{Bins, Cull};
 
-/// [`bake`](crate::bake) for curved surfaces: which side of a surface is seen is asked of its *interpolated* normals at each sample, the test of
-/// N·L < 0 (Wang & Molnar 1994; WM94-1 iii). With [`BackFace`](umbrage_depth::BackFace) only what faces away by that test is stored.
+/// [`bake`](crate::bake) for curved surfaces: which side of a surface is seen is decided by its *interpolated* normals at each sample, the test of
+/// N·L < 0 (Wang & Molnar 1994). With [`BackFace`](umbrage_depth::BackFace) only what faces away by that test is stored.
 ///
 /// N·L is interpolated as a camera would, in proportion over the triangle, not over the map. Where a triangle is edge-on to the light its own
 /// facing decides, and so it does for triangles without [normals](Caster::normals).

@@ -15,15 +15,15 @@ pub struct Baked {
     pub map: Arc<Tiled>,
     /// What the rasteriser did with the triangles.
     pub stats: Stats,
-    /// Texels covered, counted once per facet: the fragments that were offered to the rule in one pass.
+    /// Texels covered, counted once per facet: the fragments that were offered to the rule in one pass.
     pub fragments: u64,
 }
 
-/// Pass 1: draws the triangles from a light and stores one depth a texel by `rule` (R87-1; W78-1).
+/// Pass 1: draws the triangles from a light and stores one depth per texel by `rule`.
 ///
 /// Works tile by tile: a tile's cells are made when its first fragment comes, and leave resolved, with their minimum and
 /// maximum. Tiles that nobody touches are never allocated. What is nearer than the near plane is stored at the
-/// near plane (C-10). The result does not depend on the number of threads.
+/// near plane. The result does not depend on the number of threads.
 ///
 /// `casters` are [`Triangle`](umbrage_raster::Triangle)s or [`Caster`]s.
 pub fn bake<'a, R: DepthRule>(
@@ -38,8 +38,8 @@ pub fn bake<'a, R: DepthRule>(
     Pass { view, fine: view, rule, masks: &masks, front: BY_WINDING }.run(&bins, cull)
 }
 
-/// [`bake`] with `axis` × `axis` samples a texel, all of whose fragments count for the texel: what *hits* it, not what lies at one place
-/// (W92-3).
+/// [`bake`] with `axis` × `axis` samples per texel, all of whose fragments count for the texel: what *hits* it, not what lies at one place
+/// (Woo 1992).
 ///
 /// First depths then are the nearest over the texel. Midpoints need [`SameSurface::Surface`](umbrage_depth::SameSurface::Surface), as one surface has several
 /// depths there. Radial depths are taken along the ray of the texel's own sample.
@@ -63,8 +63,8 @@ pub fn bake_multi<'a, R: DepthRule>(
 /// That a facet's own [`Facing`] says which side of it is seen, all over it.
 pub(crate) const BY_WINDING: Option<fn(&Facet, DVec2) -> bool> = None;
 
-/// What Reeves advises for a light's map: from once to twice the picture's resolution along each axis, starting with once
-/// (R87-6). As (least, most).
+/// What Reeves advises for a light's map: from once to twice the picture's resolution along each axis, starting with once.
+/// As (least, most).
 pub fn advised_map_sizes(picture: UVec2) -> (UVec2, UVec2) {
     (picture, picture * 2)
 }

@@ -7,7 +7,7 @@ use umbrage_depth::{ROW, Reduction, TagMap};
 use umbrage_plane::{Facet, TexelRect, View};
 use umbrage_raster::{BIN, Bins, Cull};
 
-/// The nearest key and its object; of several objects at one key the smallest id, so that no order shows (V54).
+/// The nearest key and its object; of several objects at one key the smallest id, so that no order shows.
 struct Nearest;
 
 impl Reduction for Nearest {
@@ -23,7 +23,7 @@ impl Reduction for Nearest {
     }
 }
 
-/// Pass 1 of the baseline by object tags: the id of the nearest object of each texel (Wang & Molnar 1994; WM94-16).
+/// Pass 1 of the baseline by object tags: the id of the nearest object of each texel (Wang & Molnar 1994).
 pub fn bake_tags<'a>(view: &View, casters: impl IntoIterator<Item: Into<Caster<'a>>>) -> TagMap {
     let mut masks = Masks::new(view);
     let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));

@@ -3,11 +3,11 @@ use crate::{DepthRule, ROW, Reduction, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
-/// The nearest surface that faces away from the light (Wang & Molnar 1994; WM94-1 ii and iii): front-face culling for
+/// The nearest surface that faces away from the light (Wang & Molnar 1994): front-face culling for
 /// polygons, the test of N·L < 0 for curved surfaces, which a facet's [`Facing`](umbrage_plane::Facing) answers texel by texel.
 ///
-/// Two-sided sheets are never culled (WM94-3). An open surface passed off as a solid stores nothing where its front is seen (V53).
-/// Equals [`Second`](crate::Second) for solids that do not reach into each other; where they do, it skips hidden fronts (WM94-2, V51).
+/// Two-sided sheets are never culled. An open surface passed off as a solid stores nothing where its front is seen.
+/// Equals [`Second`](crate::Second) for solids that do not reach into each other; where they do, it skips hidden fronts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BackFace;
 

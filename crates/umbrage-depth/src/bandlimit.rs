@@ -2,7 +2,7 @@ use crate::{DepthMap, Raw};
 use umbrage_plane::TexelRect;
 
 /// The map with every depth replaced by the mean over the (2·`radius` + 1)² texels around it: the light's depth bandlimited
-/// before it is looked up (Williams 1978; W78-21).
+/// before it is looked up (Williams 1978).
 ///
 /// A negative control, known not to help: a mean of depths is the depth of no surface, which is why percentage-closer
 /// filtering compares first. Texels without a surface stay so and are left out of every mean.

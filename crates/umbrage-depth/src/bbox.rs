@@ -3,7 +3,7 @@ use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use umbrage_plane::{DepthRange, TexelRect, View};
 
-/// Only the rectangle around all surfaces (Reeves 1987, §3.3; R87-19). A map without a surface keeps nothing.
+/// Only the rectangle around all surfaces (Reeves 1987, §3.3). A map without a surface keeps nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bbox {
     view: View,

@@ -5,10 +5,10 @@ use std::borrow::Cow;
 use umbrage_plane::{TexelRect, View};
 
 /// Several surfaces per texel, each letting part of the light through: a deep shadow map (Lokovic & Veach 2000, as Burley 2006 uses
-/// it; B06-11, EXT-3).
+/// it).
 ///
-/// A texel's transmittance is 1 down to its first surface and steps down at each: a surface at a depth does not shadow that depth
-/// (C-7, V56). As a [`DepthMap`] it answers with the nearest surface, opaque or not (T-19); what passes is its [`Translucent`] half.
+/// A texel's transmittance is 1 down to its first surface and steps down at each: a surface at a depth does not shadow that depth.
+/// As a [`DepthMap`] it answers with the nearest surface, opaque or not; what passes is its [`Translucent`] half.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DeepMap {
     view: View,
@@ -98,7 +98,7 @@ impl DepthMap for DeepMap {
         Some(self)
     }
 
-    /// 16 a surface: its depth and three transmittances. The table that finds a texel's surfaces, 8 a texel, is left out as everywhere.
+    /// 16 per surface: its depth and three transmittances. The table that finds a texel's surfaces, 8 per texel, is left out as everywhere.
     fn bytes(&self) -> usize {
         size_of_val(self.steps.as_slice())
     }
@@ -124,10 +124,10 @@ impl Translucent for DeepMap {
     }
 }
 
-/// Fewer steps that stand nowhere farther than `epsilon` from the given ones, in any channel (EXT-3): each kept step stands for the longest
+/// Fewer steps that stand nowhere farther than `epsilon` from the given ones, in any channel: each kept step stands for the longest
 /// run of levels that one number is near enough to. No other choice of levels has fewer steps, since levels only fall.
 ///
-/// The first surface keeps its depth and nothing is dark before it, so that searches find it where it was (B06-11). 0 loses nothing but steps at
+/// The first surface keeps its depth and nothing is dark before it, so that searches find it where it was (Burley 2006). 0 loses nothing but steps at
 /// which nothing changes. `steps` must be as in [`DeepMap::new`].
 pub fn compress_steps(steps: &[Step], epsilon: f32) -> Vec<Step> {
     let mut kept: Vec<Step> = Vec::new();

@@ -3,7 +3,7 @@ use crate::{DepthRule, ROW, Reduction, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
-/// The nearest surface (Williams 1978, W78-1; Reeves 1987, §3.1).
+/// The nearest surface (Williams 1978; Reeves 1987, §3.1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct First;
 

@@ -149,7 +149,7 @@ impl From<&Self> for Map {
     }
 }
 
-/// The look-up of a map that asks its texels one by one: slow as it is, it need not be compiled for every filter.
+/// The look-up of a map that reads its texels one by one: slow as it is, it need not be compiled for every filter.
 #[inline(never)]
 fn one_by_one<S: Simd>(simd: S, map: &impl DepthMap, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
     simd.vectorize(

@@ -1,7 +1,7 @@
 //! What a shadow map stores: depth rules and storages.
 //!
-//! A [`DepthRule`] says which of the surfaces over a texel is kept while a map is drawn, as a [`Reduction`] whose cells become depths; a [`DepthMap`] keeps the result and
-//! answers look-ups. All storages of one map give the same answers, bit for bit.
+//! A [`DepthRule`] says which of the surfaces over a texel is kept while a map is drawn, as a [`Reduction`] whose cells become
+//! depths; a [`DepthMap`] keeps the result and answers look-ups. All storages of one map give the same answers, bit for bit.
 //!
 //! | rule | stored depth | source |
 //! |---|---|---|
@@ -9,6 +9,14 @@
 //! | [`Midpoint`] | halfway between the two nearest | Woo 1992 |
 //! | [`Second`] | of the second surface, by two buffers | Wang & Molnar 1994 |
 //! | [`BackFace`] | of the nearest surface that faces away | Wang & Molnar 1994 |
+//!
+//! ```text
+//! light   front          back        floor
+//!   ●───────┃──────────────┃───────────┃────→ depth
+//!         First         BackFace
+//!                        Second
+//!                 Midpoint
+//! ```
 //!
 //! [`Stored`] names the surface that a rule keeps, whatever its parameters.
 //!
@@ -40,7 +48,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! This crate draws no triangles and computes no shadow.
+//! The [conventions](umbrage_plane#conventions) are those of `umbrage-plane`. This crate draws no triangles and
+//! computes no shadow. It has no features.
 
 #![warn(missing_debug_implementations)]
 

@@ -6,7 +6,7 @@ use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
 
 /// A stored map: one depth per texel, whatever the storage. Look-ups never fail.
 ///
-/// Depths are in the kind of the map's view (C-4), grow away from the light, and are never NaN or −∞ (C-5).
+/// Depths are in the kind of the map's view, grow away from the light, and are never NaN or −∞.
 /// References and [`Arc`]s of maps are maps too, so that several filters can share one.
 pub trait DepthMap: Send + Sync {
     /// The light's view, which says what the depths mean.

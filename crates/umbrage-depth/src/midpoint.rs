@@ -4,24 +4,24 @@ use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
 /// Between the two nearest surfaces, so that the nearest is lit and the second shadowed without any bias
-/// (Woo 1992; W92-1, W92-2, W92-3). A texel with fewer than two stores nothing.
+/// (Woo 1992). A texel with fewer than two stores nothing.
 ///
-/// The depth is averaged in world distance along the axis whatever the map's kind (W92-1b). Surfaces that coincide count as one,
-/// or shared edges and sheets would store their own depth and shadow themselves (W92-4, T-2). Whether two coincide is
-/// asked of the nearest alone, in a second pass; merging them as they arrive would depend on their order (V54). Where the two smallest
+/// The depth is averaged in world distance along the axis whatever the map's kind. Surfaces that coincide count as one,
+/// or shared edges and sheets would store their own depth and shadow themselves. Whether two coincide is
+/// tested with the nearest alone, in a second pass; merging them as they arrive would depend on their order. Where the two smallest
 /// keys already are apart, no second pass is needed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Midpoint {
     /// Where between the two: 0 excluded, ½ is Woo's, 1 is the second surface.
     pub ratio: f32,
-    /// Surfaces whose distances differ by no more than this share of the larger are one.
+    /// Surfaces whose distances differ by no more than this fraction of the larger are one.
     pub merge: f32,
     /// Which fragments belong to one surface.
     pub same: SameSurface,
 }
 
-/// Which fragments of a texel belong to one surface (W92-4).
+/// Which fragments of a texel belong to one surface (Woo 1992).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum SameSurface {
     /// Those at one depth, whatever their objects.
@@ -30,7 +30,7 @@ pub enum SameSurface {
     /// Those at one depth, of one object.
     Object,
     /// Those of one object that face the same way, at any depth: for texels that are sampled at several places, where one surface has
-    /// several depths (W92-3). An object that folds over itself loses shadow between its own folds.
+    /// several depths (Woo 1992). An object that folds over itself loses shadow between its own folds.
     Surface,
 }
 

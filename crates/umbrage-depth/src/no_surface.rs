@@ -1,9 +1,9 @@
 //! Which numbers are depths of a surface.
 
-/// Stored values from here on mean that no surface was seen (C-5).
+/// Stored values from here on mean that no surface was seen.
 const NO_SURFACE: f32 = 1e30;
 
-/// The depth that a map keeps for `depth`: +∞ for no surface. NaN and −∞, which are no depths, are no surface either.
+/// The depth that a map keeps for `depth`: +∞ for no surface. NaN and −∞, which are not depths, count as no surface too.
 #[inline(always)]
 pub(crate) fn kept(depth: f32) -> f32 {
     if depth < NO_SURFACE && depth > f32::NEG_INFINITY { depth } else { f32::INFINITY }

@@ -1,17 +1,17 @@
 use crate::Raw;
 use umbrage_plane::Kind;
 
-/// Fewest and most bits of an integer depth (W78-6).
+/// Fewest and most bits of an integer depth (Williams 1978).
 const BITS: std::ops::RangeInclusive<u32> = 8..=24;
 
 /// The integer that Williams' maps store for a post-projective depth: ⌊z_s·(2^bits − 1) + ½⌋, z_s clamped to 0..=1 and `bits` to
-/// 8..=24 (Williams 1978; W78-6, V46b).
+/// 8..=24 (Williams 1978).
 pub fn quantum(z_screen: f64, bits: u32) -> u32 {
     (z_screen.clamp(0.0, 1.0) * top(bits) + 0.5) as u32
 }
 
 /// The map with its depths rounded to integers of `bits` (8 to 24; others are moved to the nearest of these), kept as
-/// q/(2^bits − 1) (W78-6).
+/// q/(2^bits − 1) (Williams 1978).
 ///
 /// The top code is both the far plane and *nothing here*: it becomes +∞, or 1 when `faithful` to the integer buffer,
 /// where the far plane then shadows whatever lies beyond it.

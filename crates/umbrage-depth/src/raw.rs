@@ -3,11 +3,11 @@ use fearless_simd::{Simd, f32x16};
 use glam::IVec2;
 use umbrage_plane::{TexelRect, View};
 
-/// Why depths are no map.
+/// Why depths are not a map.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MapError {
-    /// Not one depth a texel.
+    /// Not one depth per texel.
     #[error("{found} depths given for a map of {width} x {height} texels")]
     Length {
         /// Columns of the view.
@@ -17,7 +17,7 @@ pub enum MapError {
         /// Number of depths given.
         found: usize,
     },
-    /// NaN or −∞, which are no depths (C-5).
+    /// NaN or −∞, which are not depths.
     #[error("texel ({}, {}) holds {value}, which is not a depth", .texel.x, .texel.y)]
     NotADepth {
         /// The first such texel, by rows from the top.
@@ -38,7 +38,7 @@ pub enum MapError {
     Epsilon(f32),
 }
 
-/// Every texel of a map: 4 bytes each, row by row from the top (R87-4, V26).
+/// Every texel of a map: 4 bytes each, row by row from the top (Reeves 1987).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raw {
     view: View,
@@ -102,7 +102,7 @@ impl Raw {
         }
     }
 
-    /// The smallest rectangle around all texels that hold a surface; empty when none does (R87-19).
+    /// The smallest rectangle around all texels that hold a surface; empty when none does (Reeves 1987).
     pub fn finite(&self) -> TexelRect {
         rows::finite(self, TexelRect::of_size(self.view.size()))
     }

@@ -2,7 +2,7 @@ use crate::{Hit, Stored};
 use glam::{DVec2, IVec2};
 use umbrage_plane::{Affine, Decode, Facet, Facing, View};
 
-/// Makes one cell of all the fragments that meet a texel: what a map keeps while it is drawn (spec X-3).
+/// Makes one cell of all the fragments that meet a texel: what a map keeps while it is drawn.
 ///
 /// The result does not depend on the fragments' order, so that neither threads nor tiling can change a bit. Reductions see keys
 /// ([`Affine`]); a [`DepthRule`] makes a depth of the cell in the end, other maps (objects' ids, for one) use the cell as it is.

@@ -3,10 +3,10 @@ use crate::{DepthRule, ROW, RUN, Reduction, Row, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
 
-/// The second surface, whichever way it faces, found with two buffers (Wang & Molnar 1994; WM94-1 i).
+/// The second surface, whichever way it faces, found with two buffers (Wang & Molnar 1994).
 ///
-/// A two-sided sheet is inserted twice, so that it is its own second surface (WM94-3). A texel with a single surface of a solid
-/// stores nothing (V53).
+/// A two-sided sheet is inserted twice, so that it is its own second surface. A texel with a single surface of a solid
+/// stores nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Second;
 

@@ -1,10 +1,9 @@
 use glam::IVec2;
 use umbrage_plane::{TexelRect, View};
 
-/// The id of the nearest object a texel: the priority buffer of Hourcade & Nicolas, a baseline that Wang & Molnar 1994 compare with
-/// (WM94-16).
+/// The id of the nearest object per texel: the priority buffer of Hourcade & Nicolas, a baseline that Wang & Molnar 1994 compare with.
 ///
-/// No [`DepthMap`](crate::DepthMap), because ids are no depths (C-4).
+/// No [`DepthMap`](crate::DepthMap), because ids are not depths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TagMap {
     view: View,

@@ -9,7 +9,7 @@ const AREA: usize = (TILE * TILE) as usize;
 const SHIFT: u32 = TILE.trailing_zeros();
 /// What a tile that is left out stands for.
 static EMPTY: [f32; AREA] = [f32::INFINITY; AREA];
-/// More tiles than this are not asked for their range.
+/// The ranges of more tiles than this are not looked at.
 const MOST_ASKED: u32 = 64;
 /// What the first range is united with; never leaves this module.
 const NONE_YET: DepthRange = DepthRange { min: f32::INFINITY, max: f32::NEG_INFINITY };
@@ -71,16 +71,16 @@ impl Tile {
     }
 
     /// The smallest and largest depth of the texels that belong to the map; the largest is +∞ when one of them has no surface
-    /// (R87-22, T-4).
+    /// (Reeves 1987).
     pub fn range(&self) -> DepthRange {
         self.range
     }
 }
 
-/// Tiles of 32×32 texels, those without a surface left out (Reeves 1987, §3.3; R87-21): the native form of a map.
+/// Tiles of 32×32 texels, those without a surface left out (Reeves 1987, §3.3): the native form of a map.
 ///
-/// Every tile knows its nearest and farthest depth, so that [`DepthMap::range`] can settle regions without a look-up (R87-22).
-/// Small compact surfaces take more room than in a [`Bbox`](crate::Bbox), scattered ones less (D-18).
+/// Every tile knows its nearest and farthest depth, so that [`DepthMap::range`] can settle regions without a look-up.
+/// Small compact surfaces take more room than in a [`Bbox`](crate::Bbox), scattered ones less.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tiled {
     view: View,

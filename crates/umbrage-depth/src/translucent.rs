@@ -20,7 +20,7 @@ pub trait Translucent: Send + Sync {
     fn is_grey(&self) -> bool;
 
     /// Fraction of the light that passes all surfaces of a texel nearer than `depth`, linear RGB; a surface at `depth` itself is
-    /// not nearer (C-7). All of it for NaN.
+    /// not nearer. All of it for NaN.
     #[inline(always)]
     fn transmittance(&self, texel: IVec2, depth: f32) -> Vec3 {
         transmittance(&self.steps(texel), depth)

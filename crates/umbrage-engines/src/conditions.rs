@@ -77,7 +77,7 @@ umbrage_plane::builders!([] Conditions {
 });
 
 impl Conditions {
-    /// Parallel light over a square of `width` world units with `map_size` texels a side. The receiver faces the light;
+    /// Parallel light over a square of `width` world units with `map_size` texels per side. The receiver faces the light;
     /// floating-point depths that grow away from it.
     ///
     /// # Errors
@@ -87,7 +87,7 @@ impl Conditions {
         Self::at(false, near, far, distance, map_size, texel).checked()
     }
 
-    /// A spot light of `half_angle` radians from its axis to the sides of a square map with `map_size` texels a side. The receiver
+    /// A spot light of `half_angle` radians from its axis to the sides of a square map with `map_size` texels per side. The receiver
     /// is on the axis and faces the light; floating-point depths that grow away from it.
     ///
     /// # Errors

@@ -45,7 +45,8 @@
 //! Engines move the receiver toward the light or the casters away from it; which of both is the same comparison. Where a map's
 //! depth is not linear, a conversion holds at the receiver's distance: the same setting is a larger bias farther away.
 //!
-//! This crate knows no map, no scene and no file.
+//! The [conventions](umbrage_plane#conventions) are those of `umbrage-plane`. This crate knows no map, no scene and no
+//! file. It has no features.
 
 #![warn(missing_debug_implementations)]
 

@@ -25,7 +25,7 @@ const SMALL: &[Component] = &[Component::F32, Component::I8, Component::U8, Comp
 const ROTATIONS: Wanted = Wanted { kind: "VEC4", lanes: 4, of: SMALL, quantised: &[] };
 const WEIGHTS: Wanted = Wanted { kind: "SCALAR", lanes: 1, of: SMALL, quantised: &[] };
 
-/// The poses at the moment that was asked for, by node.
+/// The poses at the moment that was chosen, by node.
 pub(crate) fn poses(file: &File, options: &ReadOptions) -> Result<BTreeMap<usize, Pose>, GltfError> {
     let mut poses: BTreeMap<usize, Pose> = BTreeMap::new();
     let Some(time) = options.time else { return Ok(poses) };

@@ -15,7 +15,7 @@ const ROWS: u32 = 512;
 /// Most columns of it.
 const MOST: f64 = 32_768.0;
 
-/// The camera that was asked for, the scene's first one, or one that sees all.
+/// The camera that was chosen, the scene's first one, or one that sees all.
 pub(crate) fn camera(file: &File, nodes: &Nodes, things: &Things, options: &ReadOptions) -> Result<View, GltfError> {
     let count = file.count("cameras")?;
     let mut names = Vec::new();

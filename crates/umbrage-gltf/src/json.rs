@@ -84,7 +84,7 @@ impl<'a> At<'a> {
         if fits(number) { Ok(number) } else { Err(self.wrong(name, expected)) }
     }
 
-    /// As many numbers as are asked for.
+    /// As many numbers as are wanted.
     pub fn numbers<const N: usize>(&self, name: &str) -> Result<Option<[f64; N]>, GltfError> {
         let Some(value) = self.value.get(name) else { return Ok(None) };
         let expected = || format!("{N} numbers");

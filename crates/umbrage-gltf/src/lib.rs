@@ -59,6 +59,9 @@
 //! [`ReadOptions::max_bytes`] before they are allocated, and every fault is one line that names the field, its value, and what was expected
 //! ([`GltfError`]). Buffers are plain files below the scene's folder, or data URIs. A triangle with a position that is not
 //! finite is skipped, counted and noted.
+//!
+//! The [conventions](umbrage_plane#conventions) are those of `umbrage-plane`; glTF's own are the same: right-handed, y up, metres. This crate
+//! draws nothing. It has no features.
 
 #![warn(missing_debug_implementations)]
 

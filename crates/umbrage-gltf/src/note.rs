@@ -5,7 +5,7 @@ use std::fmt;
 pub enum Level {
     /// Everybody: part of the scene is not shown, or something had to be guessed.
     Always,
-    /// Whoever asks for details: what was passed over makes no difference to shadows.
+    /// For details only: what was passed over makes no difference to shadows.
     Verbose,
 }
 

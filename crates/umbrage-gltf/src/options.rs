@@ -1,12 +1,12 @@
 use glam::UVec2;
 use umbrage_plane::builders;
 
-/// What a reader of glTF is asked for beyond the file.
+/// What a reader of glTF may choose beyond the file.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ReadOptions {
     /// Columns and rows of the picture. The camera's vertical field stays, and the aspect is that of the picture. `None` is 512 rows, and
-    /// as many columns as the camera's `aspectRatio` asks for (1 without it).
+    /// as many columns as the camera's `aspectRatio` needs (1 without it).
     pub size: Option<UVec2>,
     /// Columns and rows of each light's map, texels; 512 at first.
     pub map_size: u32,
@@ -17,7 +17,7 @@ pub struct ReadOptions {
     pub time: Option<f64>,
     /// The animation, by its name; `None` is the first. It matters only with a time.
     pub animation: Option<String>,
-    /// Most bytes that reading may take; 4 GiB at first. What a file asks for is counted before it is allocated: the bytes of the file and of
+    /// Most bytes that reading may take; 4 GiB at first. What a file needs is counted before it is allocated: the bytes of the file and of
     /// its buffers; 100 for each value, 200 for each array and 800 for each object of the JSON; 96 per vertex and 112 per triangle of each mesh, and of each place where it stands.
     pub max_bytes: u64,
 }

@@ -125,7 +125,7 @@ pub fn read_map(path: &Path, most_texels: u64) -> Result<Map, IoError> {
 /// As [`read_map`], from bytes.
 ///
 /// # Errors
-/// A [`Fault`], when the bytes are no map of that size.
+/// A [`Fault`], when the bytes are not a map of that size.
 pub fn decode_map(bytes: &[u8], most_texels: u64) -> Result<Map, Fault> {
     let parts = Parts::read(bytes, bytes.len() as u64, u64::MAX)?;
     let options = MapOptions::default().with_most_texels(most_texels);

@@ -1,7 +1,7 @@
 use glam::{DVec2, DVec3};
 use umbrage_plane::cube_face;
 
-/// The face and (s, t) of OpenGL's cube maps for a direction, any length but 0 (V49). Its faces stand in our order, +X, −X, +Y, −Y, +Z,
+/// The face and (s, t) of OpenGL's cube maps for a direction, any length but 0. Its faces stand in our order, +X, −X, +Y, −Y, +Z,
 /// −Z, but are seen from outside: mirrored. s and t are in 0..=1; t goes down as ours does.
 pub fn opengl_cube_face(direction: DVec3) -> (usize, DVec2) {
     let (face, _) = cube_face(direction);

@@ -4,7 +4,7 @@ use umbrage_depth::DepthMap;
 /// The grey of the farthest surface; what is beyond it and stays white is seen against it.
 const FARTHEST: f32 = 0.75;
 
-/// A map as a picture (R87-24): linear grey, rows from the top, 0 at the nearest stored depth, rising in proportion to depth to
+/// A map as a picture (Reeves 1987): linear grey, rows from the top, 0 at the nearest stored depth, rising in proportion to depth to
 /// 0.75 at the farthest, 1 where nothing is stored. A map with one depth only is black there.
 pub fn depth_view(map: &impl DepthMap) -> Vec<f32> {
     let size = map.view().size().as_ivec2();

@@ -1,14 +1,14 @@
 //! Shadow maps as EXR, flat and deep, pictures as PNG and EXR, one safe way to write a file.
 //!
-//! * [`write_shadow_map`] and [`read_shadow_map`]: a depth map with its view, bit for bit (R87-4), in a file that other
+//! * [`write_shadow_map`] and [`read_shadow_map`]: a depth map with its view, bit for bit (Reeves 1987), in a file that other
 //!   tools read: tiled, channel `Z`, `worldToCamera`, `worldToNDC`, `near`, `far`, `textureformat = "Shadow"`.
-//! * [`write_deep_map`] and [`read_deep_map`]: all surfaces of each texel with what passes them (B06-11, EXT-3), bit for bit, as deep
+//! * [`write_deep_map`] and [`read_deep_map`]: all surfaces of each texel with what passes them (Burley 2006), bit for bit, as deep
 //!   scan lines that other tools composite: channels `Z` and `A` or `AR`, `AG`, `AB`.
 //! * [`write_facet_map`] and [`read_facet_map`]: a map of facets, bit for bit, as a shadow map that other tools read, with planes, indices,
 //!   blocks and links in a second part.
 //! * [`write_shadow_map_by_rows`]: the file of a map that is larger than memory, row of tiles by row of tiles.
-//! * [`Paged`]: a shadow map's file with only the tiles looked at last in memory (R87-20).
-//! * [`write_png`], [`write_png_grey`], [`write_exr`]: pictures from linear light (X-7); [`read_png`] for comparing.
+//! * [`Paged`]: a shadow map's file with only the tiles looked at last in memory.
+//! * [`write_png`], [`write_png_grey`], [`write_exr`]: pictures from linear light; [`read_png`] for comparing.
 //! * [`encode_png_values`], [`encode_exr_values`]: a quantity for each pixel, such as a fraction in shadow, without a curve;
 //!   [`read_values`] and [`decode_values`] read it.
 //! * [`read_map`]: whichever of these maps a file holds.
@@ -19,6 +19,8 @@
 //!
 //! Files are not trusted: sizes are checked against the file's length and a budget before memory is taken, and every fault
 //! is one line that names file, field and value. Of the crates that know pictures and maps only this one opens files.
+//!
+//! The [conventions](umbrage_plane#conventions) are those of `umbrage-plane`. This crate computes no shadow and reads no scene. It has no features.
 //!
 //! ```
 //! use glam::{UVec2, Vec3};

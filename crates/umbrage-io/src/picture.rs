@@ -88,7 +88,7 @@ const MOST_PIXELS: u64 = 1 << 26;
 /// Reads a PNG file's codes; transparency is dropped, 16 bits become 8. At most 2²⁶ pixels.
 ///
 /// # Errors
-/// [`IoError`], when the system refuses or the file is no PNG of a size within the limit.
+/// [`IoError`], when the system refuses or the file is not a PNG of a size within the limit.
 pub fn read_png(path: &Path) -> Result<Codes, IoError> {
     decode_png(&read_bytes(path, MOST_PIXELS * 8 + (1 << 20))?).map_err(|fault| fault.in_file(path))
 }
@@ -96,7 +96,7 @@ pub fn read_png(path: &Path) -> Result<Codes, IoError> {
 /// As [`read_png`], from bytes.
 ///
 /// # Errors
-/// A [`Fault`], when the bytes are no PNG of a size within the limit.
+/// A [`Fault`], when the bytes are not a PNG of a size within the limit.
 pub fn decode_png(bytes: &[u8]) -> Result<Codes, Fault> {
     let broken = |error: &dyn Display| Fault::new("PNG data", format!("{} bytes", bytes.len()), error);
     let limits = png::Limits { bytes: MOST_PIXELS as usize * 8 };
@@ -179,7 +179,7 @@ pub fn write_exr(path: &Path, size: UVec2, linear_rgb: &[Vec3]) -> Result<(), Io
     write_bytes(path, &encode_exr(size, linear_rgb).map_err(|fault| fault.in_file(path))?)
 }
 
-/// Every pixel as a square of `factor` × `factor` pixels, for zooms that invent nothing. The new size and its pixels;
+/// Every pixel as a square of `factor` × `factor` pixels, for zooms that invent nothing. The new size and its pixels;
 /// a factor of 0 leaves none.
 ///
 /// # Panics

@@ -1,4 +1,4 @@
-//! Is there a bias that does? Predicted from a scene's numbers, or found by trying (Wang & Molnar 1994; WM94-18, D-10).
+//! Is there a bias that does? Predicted from a scene's numbers, or found by trying (Wang & Molnar 1994).
 
 use crate::predict::{acne_free_bias, slack};
 use std::fmt;
@@ -35,18 +35,18 @@ impl fmt::Display for BiasWindow {
     }
 }
 
-/// A receiver with something thin standing on it, as far as a constant bias cares (D-10).
+/// A receiver with something thin standing on it, as far as a constant bias cares.
 ///
 /// The thinnest part bounds both casters and receivers: where the midpoint or the second surface is stored, a receiver is
 /// taken to be a solid of the map at least that thick, and what lies between its front and what is stored guards it
 /// from its own texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BiasCase {
-    /// Width of a texel at the receiver, world units (D-9's τ).
+    /// Width of a texel at the receiver, world units.
     pub texel_world: f64,
     /// Half-extent of the filter, texels; 0 for a point look-up.
     pub radius: f64,
-    /// Tangent of the angle between the receiver and the map's plane, ≥ 0 (σ of D-15 in perspective). For a level floor
+    /// Tangent of the angle between the receiver and the map's plane, ≥ 0 (in perspective the slope as the light's rays see it). For a level floor
     /// 1 / tan of the light's elevation.
     pub slope: f64,
     /// Of the thinnest part along the light, world units.
@@ -69,8 +69,8 @@ impl BiasCase {
         BiasWindow { acne_free: Some((step - guard).max(0.0)), keeps_contact: Some(high) }
     }
 
-    /// The widest texel with which a bias works, world units; +∞ where the receiver faces the light squarely (the inverse of
-    /// D-10).
+    /// The widest texel with which a bias works, world units; +∞ where the receiver faces the light squarely. With it
+    /// the smallest bias without acne is the largest that keeps the contact.
     pub fn widest_texel(&self) -> f64 {
         let guard = self.thickness - slack(self.stored, self.thickness);
         let allowed = guard + self.window().keeps_contact.unwrap_or(0.0);
@@ -95,14 +95,14 @@ pub struct BiasSearch {
     pub sweep: u32,
     /// How often the step at which the answer lies is halved.
     pub halvings: u32,
-    /// False shadow up to which a bias counts as free of it, inclusive (M2).
+    /// False shadow up to which a bias counts as free of it, inclusive.
     pub most_acne: f64,
-    /// Gap up to which contact counts as kept, inclusive (M7).
+    /// Gap up to which contact counts as kept, inclusive.
     pub most_gap: f64,
 }
 
 impl Default for BiasSearch {
-    /// 17 biases in 0..=40, the bounds of the papers' table (Wang & Molnar 1994, Fig. 4; WM94-F4).
+    /// 17 biases in 0..=40, the bounds of the papers' table (Wang & Molnar 1994, Fig. 4).
     fn default() -> Self {
         Self { range: (0.0, 40.0), sweep: 17, halvings: 8, most_acne: 0.02, most_gap: 1.0 }
     }

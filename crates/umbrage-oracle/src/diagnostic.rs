@@ -4,7 +4,7 @@ use umbrage_plane::Kind;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Diagnostic {
-    /// A caster that the light's view does not wholly hold: its shadow is cut off (Williams 1978; W78-8).
+    /// A caster that the light's view does not wholly hold: its shadow is cut off (Williams 1978).
     #[error(
         "light {light:?}: object {object:?} casts but lies partly outside the light's view: its shadow is cut off there"
     )]
@@ -14,7 +14,7 @@ pub enum Diagnostic {
         /// The object's name.
         object: String,
     },
-    /// Integer depth is too coarse at the farthest receiver (Williams 1978; W78-9).
+    /// Integer depth is too coarse at the farthest receiver (Williams 1978).
     #[error(
         "light {light:?}: at distance {farthest} a step of {bits}-bit depth is {step} world units, more than half the bias {bias}: \
          raise the near plane, the bits or the bias"
@@ -110,7 +110,7 @@ pub enum Diagnostic {
         size: f64,
     },
     /// Another surface lies so close behind a caster that what is stored between them shadows the caster: a rug on a floor, a
-    /// floor that is drawn twice, boxes that touch (Woo 1992; Wang & Molnar 1994; WM94-17).
+    /// floor that is drawn twice, boxes that touch (Woo 1992; Wang & Molnar 1994).
     #[error(
         "light {light:?}: {other:?} lies {gap:.6} world units behind {object:?} where depth changes by {step:.4} over the filter, so that \
          {object:?} shadows itself: store nearest surfaces with a bias, or back faces, or leave one of them out of the map"
@@ -128,7 +128,7 @@ pub enum Diagnostic {
         step: f64,
     },
     /// A sheet lies over itself, and the midpoint rule takes all of an object that faces one way for one surface: its shadow on itself is
-    /// lost (Woo 1992; W92-3).
+    /// lost (Woo 1992).
     #[error(
         "light {light:?}: sheet {object:?} lies over itself, {gap:.4} world units apart at most, and same=surface takes both for one: its \
          shadow on itself is lost; use same=depth with one sub-sample, or make them two objects"
@@ -141,7 +141,7 @@ pub enum Diagnostic {
         /// The largest distance between two folds, along the light's axis, world units.
         gap: f64,
     },
-    /// Under the midpoint rule a single sheet leaves nothing to compare with where its receiver is not in the map (Woo 1992; W92-9).
+    /// Under the midpoint rule a single sheet leaves nothing to compare with where its receiver is not in the map (Woo 1992).
     #[error(
         "light {light:?}: sheet {object:?} loses its shadow under the midpoint rule on {receiver:?}, which does not cast: let the receiver cast"
     )]
@@ -153,13 +153,13 @@ pub enum Diagnostic {
         /// The receiver's name.
         receiver: String,
     },
-    /// An open mesh that claims to bound a solid: back faces and second surfaces are missing (Wang & Molnar 1994; WM94-14).
+    /// An open mesh that claims to bound a solid: back faces and second surfaces are missing (Wang & Molnar 1994).
     #[error("object {object:?} is flagged solid but its mesh is open: flag it two-sided, or its shadow may vanish")]
     OpenSolid {
         /// The object's name.
         object: String,
     },
-    /// A caster's texels span more depth than it is thick: whatever is stored inside it shadows it (Wang & Molnar 1994; WM94-17).
+    /// A caster's texels span more depth than it is thick: whatever is stored inside it shadows it (Wang & Molnar 1994).
     #[error(
         "light {light:?}: object {object:?} is {thickness:.4} world units thick where depth changes by {step:.4} over the filter: \
          a map of {side_needed} texels a side would do"

@@ -34,7 +34,7 @@ pub struct Contact {
     pub toward: DVec2,
     /// World units of the receiver that a pixel's step in that direction spans.
     pub world_per_pixel: f64,
-    /// World units that a texel of the map spans there (spec D-9's τ).
+    /// World units that a texel of the map spans there.
     pub world_per_texel: f64,
 }
 
@@ -50,11 +50,11 @@ pub struct Fault {
 /// The named faults of a shadow image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Faults {
-    /// Shadow where truth is lit, away from its edges: mean, 0..1 (M2). Map: the shadow, 0..1.
+    /// Shadow where truth is lit, away from its edges: mean, 0..1. Map: the shadow, 0..1.
     pub acne: Fault,
-    /// Light where truth is dark, away from its edges: mean, 0..1 (M8). Map: minus the light, −1..0.
+    /// Light where truth is dark, away from its edges: mean, 0..1. Map: minus the light, −1..0.
     pub leak: Fault,
-    /// Lit gap between contacts and their shadows beyond truth's own: mean, world units (M7). A shadow that is lost altogether
+    /// Lit gap between contacts and their shadows beyond truth's own: mean, world units. A shadow that is lost altogether
     /// counts with the way to the picture's border. Map: the gap in world units at each pixel of it.
     pub detachment: Fault,
     /// The same mean in texels of the map; `None` without a contact that has a shadow.
@@ -64,7 +64,7 @@ pub struct Faults {
     /// Width between 10 % and 90 % beyond truth's own, pixels; negative when the edge is too sharp. Map: ±1 where only
     /// the result (+) or only truth (−) is between.
     pub penumbra_width: Fault,
-    /// Root mean square deviation from the smooth reference inside its penumbra, 0..1 (M6). Map: signed.
+    /// Root mean square deviation from the smooth reference inside its penumbra, 0..1. Map: signed.
     pub noise: Fault,
 }
 
@@ -165,8 +165,8 @@ fn way_out(image: Grid, contact: &Contact) -> f64 {
         .unwrap_or(0.0)
 }
 
-/// M7 without a picture: the distance in world units from `foot` along `direction` (in its plane, need not be unit) to
-/// the first point that is at least half in shadow, asked every `step` and halved down to a 64th of it.
+/// The contact gap without a picture: the distance in world units from `foot` along `direction` (in its plane, need not be unit) to
+/// the first point that is at least half in shadow, sampled every `step` and halved down to a 64th of it.
 ///
 /// Each point is a region of its own, with the footprint of `foot` carried along. 0 when `foot` itself is in shadow;
 /// `None` when there is no shadow within `limit`.
@@ -194,8 +194,8 @@ pub fn gap_on_surface(
     Some(if first == 0 { 0.0 } else { high })
 }
 
-/// M1 without a picture: the shadow along a line of a surface, `half_width` world units to either side of `middle` toward
-/// `into_shadow` (in the surface's plane, need not be unit), asked at `points` places evenly, both ends included.
+/// The profile of an edge without a picture: the shadow along a line of a surface, `half_width` world units to either side of `middle` toward
+/// `into_shadow` (in the surface's plane, need not be unit), sampled at `points` places evenly, both ends included.
 ///
 /// Distances are world units from `middle`, positive toward `into_shadow`. Each point is a region of its own, with the
 /// footprint of `middle` carried along. Empty when there is no direction, or fewer than 2 points. [`Profile::width`]

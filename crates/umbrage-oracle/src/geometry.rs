@@ -21,11 +21,11 @@ pub struct Face {
 /// What an object's id stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Body {
-    /// Drawn into depth maps. Truth asks for it only under [`Truth::casters_only`](crate::Truth::casters_only).
+    /// Drawn into depth maps. Truth regards it only under [`Truth::casters_only`](crate::Truth::casters_only).
     pub casts: bool,
     /// The closed boundary of a solid; false for an open sheet, and where its cover has holes or blends.
     pub solid: bool,
-    /// Share of the light that passes one surface of it, linear RGB in 0..=1; 0, the default, is opaque (EXT-3). Where its cover blends
+    /// Fraction of the light that passes one surface of it, linear RGB in 0..=1; 0, the default, is opaque. Where its cover blends
     /// it is what passes at an alpha of 1.
     pub passes: Vec3,
 }
@@ -37,9 +37,9 @@ pub struct Hit {
     pub t: f64,
     /// Index of the face in [`Geometry::faces`].
     pub face: u32,
-    /// Its object.
+    /// The id of its object.
     pub object: u32,
-    /// World space.
+    /// Where it lies, in world space.
     pub position: DVec3,
     /// Unit normal on the outside (the counter-clockwise side), whichever side was met.
     pub normal: DVec3,
@@ -48,7 +48,7 @@ pub struct Hit {
 /// A scene's triangles, ready for rays. obvhs builds the tree; rays walk it in f64.
 ///
 /// Positions are the f32 numbers of the scene, relative to its origin; everything after them is f64, and points and directions
-/// that are asked about are of world space. No ray slips between triangles
+/// that queries take are of world space. No ray slips between triangles
 /// that share an edge or a vertex (Woop, Benthin & Wald 2013); a ray through the edge itself meets both. Where the
 /// [`Cover`] of a scene's object says that nothing is there, no ray meets it.
 ///
@@ -83,7 +83,7 @@ pub(crate) struct Place {
 
 impl Place {
     /// Moved by its rounding, which [`Geometry::holds`] allows for: what lies in the plane of a facet that is edge-on to the light
-    /// is then on the side of it that is asked about.
+    /// is then on the side of it that the query is about.
     pub(crate) fn lifted(self, normal: DVec3) -> Self {
         Self { at: self.at + normal * self.rounding, ..self }
     }

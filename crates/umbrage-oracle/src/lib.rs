@@ -2,7 +2,7 @@
 //!
 //! The oracle is one more [`Shadow`](umbrage_shadow::Shadow): [`RayCast`] answers exactly for a point, [`AreaRegion`]
 //! for a pixel's region, [`AreaLight`] for a light with extent, [`Mean`](umbrage_shadow::Mean) of them for a time that the shutter is open. [`metrics`]
-//! are the measures M1..M9 of the figures, [`faults`] gives the named faults of a picture with a heat map of each,
+//! are the measures of the figures, [`faults`] gives the named faults of a picture with a heat map of each,
 //! [`judge`] those of any scene without a place put by hand, [`predict`] what theory expects, [`BiasCase`], [`BiasSearch`] and [`BiasTrial`] whether a
 //! bias works, [`diagnose`] what to mend.
 //!
@@ -19,8 +19,8 @@
 //! assert_eq!(truth.at(&SurfacePoint::at(Vec3::X * 3.0, Vec3::Y)), 0.0);
 //! ```
 //!
-//! Conventions are those of `umbrage-plane`: 1 is dark, rows from the top, texel and pixel centres at +½. Nothing here
-//! draws or opens a file.
+//! The [conventions](umbrage_plane#conventions) are those of `umbrage-plane`. Nothing here draws or opens a file. It has no
+//! features.
 
 mod bias;
 mod diagnose;

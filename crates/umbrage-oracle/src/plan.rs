@@ -13,8 +13,8 @@ pub struct Plan {
     pub stored: Stored,
     /// How midpoints are found, where these are what it keeps.
     pub midpoint: Midpoint,
-    /// Tangent of the steepest angle between a caster's surface and the map's plane that must be free of error, ≥ 0 (WM94-17).
-    /// 0 does not ask.
+    /// Tangent of the steepest angle between a caster's surface and the map's plane that must be free of error, ≥ 0 (Wang & Molnar 1994).
+    /// With 0 it is not examined.
     pub slope: f64,
     /// Half-extent of the filter, texels.
     pub filter_half: f64,

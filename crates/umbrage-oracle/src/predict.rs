@@ -1,11 +1,11 @@
-//! What theory says a shadow map gets wrong: closed forms to draw beside measurements (spec D-9..D-13, D-16, D-19).
+//! What theory says a shadow map gets wrong: closed forms to draw beside measurements.
 //!
 //! Lengths are in one unit of the caller's choice within a call (world units, or texels), angles in radians.
 
 use umbrage_depth::Stored;
 use umbrage_plane::{Kind, View};
 
-/// Share of a lit plane in false shadow under nearest look-up, bias drawn uniformly from `bias.0..=bias.1` (D-9).
+/// Fraction of a lit plane in false shadow under nearest look-up, bias drawn uniformly from `bias.0..=bias.1`.
 ///
 /// `g1`, `g2` ≥ 0 are the plane's depth steps per texel along the map's axes (τ·tanθ·|cosφ|, τ·tanθ·|sinφ|), in either
 /// order. Equal biases mean a constant one. On a plane square to the light (both steps 0) nothing is false unless the
@@ -52,7 +52,7 @@ fn share_integral(g1: f64, g2: f64, bias: f64) -> f64 {
 }
 
 /// The smallest bias without false shadow on a plane of steps `g1`, `g2`, for a filter of half-extent `radius` texels;
-/// 0 for a point look-up (D-9).
+/// 0 for a point look-up.
 pub fn acne_free_bias(g1: f64, g2: f64, radius: f64) -> f64 {
     (radius + 0.5) * (g1 + g2)
 }
@@ -72,26 +72,26 @@ pub fn float_step(view: &View, zeta: f64) -> f64 {
     }
 }
 
-/// Variance of the mean of `samples` independent samples of a region of which the share `dark` is in shadow (D-12).
+/// Variance of the mean of `samples` independent samples of a region of which the fraction `dark` is in shadow.
 pub fn uniform_variance(dark: f64, samples: u32) -> f64 {
     dark * (1.0 - dark) / f64::from(samples)
 }
 
-/// Variance of the mean of `n` × `n` jittered samples crossed by an axis-parallel edge that leaves the share `dark` in
-/// shadow: f(1−f)/n³ with f the edge's place within its stratum (D-12).
+/// Variance of the mean of `n` × `n` jittered samples crossed by an axis-parallel edge that leaves the fraction `dark` in
+/// shadow: f(1−f)/n³ with f the edge's place within its stratum.
 pub fn jitter_variance(dark: f64, n: u32) -> f64 {
     let n = f64::from(n);
     let within = dark * n - (dark * n).floor();
     within * (1.0 - within) / n.powi(3)
 }
 
-/// [`jitter_variance`] averaged over all places of the edge: 1/(6n³) (D-12).
+/// [`jitter_variance`] averaged over all places of the edge: 1/(6n³).
 pub fn mean_jitter_variance(n: u32) -> f64 {
     1.0 / (6.0 * f64::from(n).powi(3))
 }
 
 /// Full width of the ramp that a box of half-extents `half_x`, `half_y` makes of a straight edge whose normal is at
-/// `angle` to the map's x axis (D-13). Its 10–90 % width is .8 of this when the edge is parallel to an axis.
+/// `angle` to the map's x axis. Its 10–90 % width is .8 of this when the edge is parallel to an axis.
 pub fn ramp_width(half_x: f64, half_y: f64, angle: f64) -> f64 {
     2.0 * (half_x * angle.cos().abs() + half_y * angle.sin().abs())
 }
@@ -107,23 +107,23 @@ pub fn ramp_width_10_90(half_x: f64, half_y: f64, angle: f64) -> f64 {
 }
 
 /// How far past the true terminator a sphere of radius `radius` stays lit under a bias in the same unit, parallel
-/// light: asin(bias / 2·radius) (D-11). NaN when the bias exceeds the diameter.
+/// light: asin(bias / 2·radius). NaN when the bias exceeds the diameter.
 pub fn terminator_shift(radius: f64, bias: f64) -> f64 {
     (bias / (2.0 * radius)).asin()
 }
 
-/// Share of a sphere's disc that is lit, seen orthographically with the light at `angle` from the direction to the
-/// observer (D-19).
+/// Fraction of a sphere's disc that is lit, seen orthographically with the light at `angle` from the direction to the
+/// observer.
 pub fn lit_share(angle: f64) -> f64 {
     0.5 * (1.0 + angle.cos())
 }
 
-/// Where the terminator crosses the disc's equator, in radii from its centre, positive toward the lit side (D-19).
+/// Where the terminator crosses the disc's equator, in radii from its centre, positive toward the lit side.
 pub fn terminator_offset(angle: f64) -> f64 {
     -angle.cos()
 }
 
-/// World units that one quantum of `bits`-bit post-projective depth spans at the axial distance `zeta` (D-17, V46b):
+/// World units that one quantum of `bits`-bit post-projective depth spans at the axial distance `zeta`:
 /// ζ²(f − n)/(fn·(2^bits − 1)) in perspective, (f − n)/(2^bits − 1) in an orthographic view.
 pub fn depth_step(view: &View, bits: u32, zeta: f64) -> f64 {
     let (n, f) = (view.near(), view.far());
@@ -132,7 +132,7 @@ pub fn depth_step(view: &View, bits: u32, zeta: f64) -> f64 {
 }
 
 /// The quantisation step of integer depth at the farthest receiver, in world units, when it exceeds half the bias: the perspective is
-/// too severe for so few bits, and surfaces there shadow themselves (Williams 1978; W78-9). `None` when all is well.
+/// too severe for so few bits, and surfaces there shadow themselves (Williams 1978). `None` when all is well.
 pub fn severe_perspective(view: &View, bits: u32, farthest_zeta: f64, bias_world: f64) -> Option<f64> {
     Some(depth_step(view, bits, farthest_zeta)).filter(|step| *step > 0.5 * bias_world)
 }
@@ -147,35 +147,35 @@ pub fn slack(stored: Stored, thickness: f64) -> f64 {
     }
 }
 
-/// Lit gap on the floor behind an upright leg of `thickness` along the light, light at `elevation`, ≥ 0 (D-10).
+/// Lit gap on the floor behind an upright leg of `thickness` along the light, light at `elevation`, ≥ 0.
 pub fn expected_contact_gap(bias: f64, thickness: f64, elevation: f64, stored: Stored) -> f64 {
     (bias * elevation.cos() - slack(stored, thickness)).max(0.0)
 }
 
 /// True when no constant bias spares both the floor's acne and the contact of a leg of `thickness`: texels of
-/// `texel_world`, filter half-extent `radius` texels, first surface stored (D-10).
+/// `texel_world`, filter half-extent `radius` texels, first surface stored.
 pub fn no_bias_works(texel_world: f64, radius: f64, thickness: f64, elevation: f64) -> bool {
     texel_world * (radius + 0.5) / elevation.tan() > thickness / elevation.cos()
 }
 
-/// Width of the true penumbra of a disc light of `diameter`, at axial distances `occluder` < `receiver` (D-16).
+/// Width of the true penumbra of a disc light of `diameter`, at axial distances `occluder` < `receiver`.
 pub fn expected_penumbra_width(diameter: f64, occluder: f64, receiver: f64) -> f64 {
     diameter * (receiver - occluder) / occluder
 }
 
-/// Half width of the penumbra of a directional light of angular radius `radians`, `gap` behind the occluder (D-16).
+/// Half width of the penumbra of a directional light of angular radius `radians`, `gap` behind the occluder.
 pub fn sky_penumbra_half_width(radians: f64, gap: f64) -> f64 {
     gap * radians.tan()
 }
 
 /// Half width of the same penumbra in the light's map, as a tangent: what a filter that is as wide as the truth has for
-/// half-extent, in the unit of x_n/k (D-16).
+/// half-extent, in the unit of x_n/k.
 pub fn penumbra_tangent(diameter: f64, occluder: f64, receiver: f64) -> f64 {
     0.5 * diameter * (1.0 / occluder - 1.0 / receiver)
 }
 
-/// Share of its largest radius that Bunnell & Pellacini's soft shadow uses, 0..1 (B06-6). With a largest radius of
-/// diameter / 2·occluder it is [`penumbra_tangent`] (D-16).
+/// Fraction of its largest radius that Bunnell & Pellacini's soft shadow uses, 0..1 (Burley 2006). With a largest radius of
+/// diameter / 2·occluder it is [`penumbra_tangent`].
 pub fn soft_radius_share(occluder: f64, receiver: f64) -> f64 {
     ((receiver - occluder) / receiver).clamp(0.0, 1.0)
 }
@@ -187,6 +187,6 @@ pub fn disc_edge(offset: f64) -> f64 {
     (x.acos() - x * (1.0 - x * x).sqrt()) / std::f64::consts::PI
 }
 
-/// 10–90 % width of the penumbra of a straight edge under a disc light, as a share of its full width: where
+/// 10–90 % width of the penumbra of a straight edge under a disc light, as a fraction of its full width: where
 /// [`disc_edge`] is a tenth.
 pub const DISC_EDGE_10_90: f64 = 0.687_048_826_132_540_5;

@@ -6,10 +6,10 @@ use umbrage_depth::{SameSurface, Stored};
 use umbrage_plane::View;
 use umbrage_scene::{Light, Mesh, Object, Scene};
 
-/// Asks each triangle in the light, no steeper than the plan says, how far behind its middle the object ends; tells of
-/// the one whose depth step is worst for its thickness (WM94-17).
+/// Examines each triangle in the light, no steeper than the plan says, how far behind its middle the object ends; reports
+/// the one whose depth step is worst for its thickness (Wang & Molnar 1994).
 ///
-/// The first surface has no guard but the bias, and sheets have no thickness: neither is asked. Nor are smooth pieces that
+/// The first surface has no guard but the bias, and sheets have no thickness: neither is examined. Nor are smooth pieces that
 /// are narrower than a texel: what happens there cannot be told from the silhouette beside it.
 pub(crate) fn too_thin(scene: &Scene, object: &Object, light: &Light, plan: &Plan) -> Option<Diagnostic> {
     let guarded = plan.slope > 0.0 && plan.stored != Stored::First;
@@ -96,7 +96,7 @@ pub(crate) fn stacked(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnost
 }
 
 /// Sheets that fold over themselves, where the plan's rule takes all that faces the light for one surface: what lies behind the first fold
-/// is lit (Woo 1992; W92-3). A solid's own back, or another object, ends the surface before its next fold.
+/// is lit (Woo 1992). A solid's own back, or another object, ends the surface before its next fold.
 pub(crate) fn folded(scene: &Scene, light: &Light, plan: &Plan) -> Vec<Diagnostic> {
     let one_at_any_depth = plan.stored == Stored::Midpoint && plan.midpoint.same == SameSurface::Surface;
     let sheet = |object: &Object| object.casts && object.receives && !object.is_solid();
@@ -141,7 +141,7 @@ struct Stand {
     zeta: f64,
     /// Axial distance per unit along the light's ray.
     axial: f64,
-    /// Axial depth per unit across the axis, over the map's x and y: D-15's slope, true in perspective as well.
+    /// Axial depth per unit across the axis, over the map's x and y: the slope as the light's rays see it, true in perspective as well.
     slope: DVec2,
 }
 

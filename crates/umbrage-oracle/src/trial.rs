@@ -1,4 +1,4 @@
-//! How biases fare on what a camera sees of anybody's scene (Wang & Molnar 1994; WM94-18).
+//! How biases fare on what a camera sees of anybody's scene (Wang & Molnar 1994).
 
 use crate::metrics::{Grid, dark_mask, lit_mask};
 use crate::{BiasSearch, BiasWindow};
@@ -77,12 +77,12 @@ impl TriedBias {
     }
 }
 
-/// What a bias leaves wrong; shares from 0 to 1.
+/// What a bias leaves wrong; fractions from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct BiasShares {
-    /// Mean shadow on the pixels that truth has lit (M2).
+    /// Mean shadow on the pixels that truth has lit.
     pub false_shadow: f64,
-    /// Mean light on the pixels that truth has in shadow (M8).
+    /// Mean light on the pixels that truth has in shadow.
     pub false_light: f64,
 }
 
@@ -231,7 +231,7 @@ fn texels(map: &impl DepthMap, point: &SurfacePoint, radius: f64, bias: impl Fn(
     texels
 }
 
-/// Bits behind the point of a pixel's share.
+/// Bits behind the point of a pixel's fraction.
 const SHIFT: u32 = 32;
 /// The least N·L of a pixel that is judged.
 const LEAST_FACING: f32 = 0.02;

@@ -7,7 +7,7 @@ use umbrage_plane::{SurfacePoint, Verdict, View};
 use umbrage_sample::Key;
 use umbrage_shadow::{Shadow, Unshadowed, same_length};
 
-/// What counts as truth. The default is physical: every object blocks light.
+/// What counts as truth. The default is physical: every object blocks light.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Truth {
     /// Only objects drawn into depth maps block light (Reeves 1987 leaves the ground out). Then only those are dark on the side away from the light, too.
@@ -102,7 +102,7 @@ impl Passed {
         Self { sum, samples: (across * across) as f32 }
     }
 
-    /// The mean shadow of the three channels. Sums of zeros and ones are exact: so is the share of dark samples.
+    /// The mean shadow of the three channels. Sums of zeros and ones are exact: so is the fraction of dark samples.
     fn shadow(self) -> f32 {
         let all = 3.0 * self.samples;
         (all - self.sum.element_sum()) / all
@@ -113,12 +113,12 @@ impl Passed {
     }
 }
 
-/// Exact hard shadows by one ray a point: 0 or 1, and between where light passes through things (EXT-3).
+/// Exact hard shadows by one ray per point: 0 or 1, and between where light passes through things.
 ///
 /// * A point on a solid whose geometric normal does not face the light is dark: its own body is in the way. On a sheet
 ///   the ray alone decides, and the sheet at the point itself does not count.
-/// * Every surface on the way takes its share of the light ([`Body::passes`](crate::Body::passes)); the shadow is the mean
-///   over the channels of what is lost. A transparent solid is no exception to its own points: the surfaces of it that
+/// * Every surface on the way stops its fraction of the light ([`Body::passes`](crate::Body::passes)); the shadow is the mean
+///   over the channels of what is lost. A transparent solid is not an exception to its own points: the surfaces of it that
 ///   the ray crosses count, the one at the point itself does not.
 /// * Places that the light's [`Rules`](umbrage_plane::Rules) call shadowed are dark, those they call lit are lit (but
 ///   see [`Truth::look_everywhere`]); a ray decides all others, near and far plane regardless.
@@ -181,19 +181,19 @@ impl Shadow for RayCast<'_> {
     }
 }
 
-/// The share of a region in hard shadow: `across`² stratified points over the quadrilateral of its corners.
+/// The fraction of a region in hard shadow: `across`² stratified points over the quadrilateral of its corners.
 ///
 /// All points are taken to lie on the region's tangent plane: where a region hangs over its surface's edge, so does its
 /// truth. A picture shaded at every sample with [`RayCast`] has no such points.
 pub struct AreaRegion<'a> {
-    /// What is asked at each point.
+    /// What answers at each point.
     pub ray: RayCast<'a>,
     /// Points along each axis; 16 (256 points) by default in [`AreaRegion::new`]. 0 counts as 1.
     pub across: u32,
 }
 
 impl<'a> AreaRegion<'a> {
-    /// 256 points a region.
+    /// 256 points per region.
     pub fn new(ray: RayCast<'a>) -> Self {
         Self { ray, across: 16 }
     }
@@ -223,7 +223,7 @@ impl Shadow for AreaRegion<'_> {
     }
 }
 
-/// True soft shadows of a disc: the share of it that a point does not see (X-5, EXT-1, D-16).
+/// True soft shadows of a disc: the fraction of it that a point does not see.
 ///
 /// A positional light becomes a disc of `radius` world units about its centre, square to its axis (to the receiver's
 /// direction when it has no view); a directional light a disc on the sky, `radius` being the tangent of its angular
@@ -248,7 +248,7 @@ impl<'a> AreaLight<'a> {
         Self::new(ray, radians.tan())
     }
 
-    /// With at least so many samples (X-5 asks for 256).
+    /// With at least so many samples (the figures take 256).
     #[must_use]
     pub fn with_samples(mut self, samples: u32) -> Self {
         self.across = f64::from(samples.max(1)).sqrt().ceil() as u32;

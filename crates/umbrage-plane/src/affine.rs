@@ -1,7 +1,7 @@
 use crate::TexelRect;
 use glam::{DVec2, IVec2};
 
-/// What the numbers in a map mean (spec C-4).
+/// What the numbers in a map mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Kind {
     /// ζ: distance along the view's axis, in world units. What a view stores unless its range is narrow ([`Kind::of_range`]).
@@ -48,7 +48,7 @@ impl Affine {
     }
 
     /// The key at a texel position, unrounded. The one formula by which every key in Umbrage is made; `dx` and `dy` are the forward
-    /// differences of the papers (spec D-4), which are not accumulated here, so that no place depends on the way to it.
+    /// differences of the papers, which are not accumulated here, so that no place depends on the way to it.
     #[inline(always)]
     pub fn at(&self, texel: DVec2) -> f64 {
         (self.c + self.dy * texel.y) + self.dx * texel.x
@@ -92,7 +92,7 @@ impl Decode {
         }
     }
 
-    /// The axial distance of a key, in world units; +∞ for keys of +∞ and behind a perspective plane's horizon (D-5).
+    /// The axial distance of a key, in world units; +∞ for keys of +∞ and behind a perspective plane's horizon.
     #[inline(always)]
     pub fn zeta(&self, key: f32) -> f64 {
         if self.beyond_horizon(key) { f64::INFINITY } else { self.zeta_of(f64::from(key)) }
@@ -141,7 +141,7 @@ impl Decode {
         }
     }
 
-    /// z_s of an axial distance (spec C-2).
+    /// z_s of an axial distance.
     #[inline(always)]
     pub(crate) fn screen(&self, zeta: f64) -> f64 {
         if self.perspective {
@@ -212,8 +212,8 @@ impl DepthPlane {
         depths
     }
 
-    /// Depths along a row, a texel apart from `from` on, by forward differences: one evaluation, then an addition each (Wang & Molnar 1994;
-    /// WM94-9, D-4). Within the rounding of so many additions of [`DepthPlane::at`], which everything in Umbrage uses, because sums depend on
+    /// Depths along a row, a texel apart from `from` on, by forward differences: one evaluation, then an addition each (Wang & Molnar
+    /// 1994). Within the rounding of so many additions of [`DepthPlane::at`], which everything in Umbrage uses, because sums depend on
     /// where they began. Endless.
     pub fn row(&self, from: DVec2) -> impl Iterator<Item = f32> + '_ {
         let start = self.key.at(from);

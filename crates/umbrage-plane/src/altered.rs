@@ -7,8 +7,8 @@ use std::f64::consts::FRAC_PI_2;
 /// The angle from one seed of a sunflower to the next, radians.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
-/// The distance from the centre of a unit sphere within which lies a share, in 0..=1, of what is spread by 1 / √(1 − r²): r = sin t with
-/// t − sin t · cos t = share · π / 2.
+/// The distance from the centre of a unit sphere within which lies a fraction, in 0..=1, of what is spread by 1 / √(1 − r²): r = sin t with
+/// t − sin t · cos t = fraction · π / 2.
 fn distance_of(share: f64) -> f64 {
     let (mut low, mut high) = (0.0, FRAC_PI_2);
     for _ in 0..40 {
@@ -183,7 +183,7 @@ impl View {
         Self::new(self.world_to_eye, projection, self.near, self.far, size).map(|view| view.alike(&self))
     }
 
-    /// The same placement, projection, range and size, with everything of another view that [`View::new`] does not ask for: kind, sampling,
+    /// The same placement, projection, range and size, with everything of another view that [`View::new`] does not take: kind, sampling,
     /// rules and cone.
     #[must_use]
     pub fn alike(self, other: &Self) -> Self {

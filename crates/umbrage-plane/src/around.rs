@@ -13,8 +13,8 @@ const FACES: [(DVec3, DVec3); 6] = [
     (DVec3::NEG_Z, DVec3::Y),
 ];
 
-/// The six views of a cube map around `eye`, 90° wide, `side` texels square, in the order +X, −X, +Y, −Y, +Z, −Z (Reeves 1987;
-/// R87-17). They store Euclidean distance ([`Kind::Radial`]), so that a depth means the same on every face.
+/// The six views of a cube map around `eye`, 90° wide, `side` texels square, in the order +X, −X, +Y, −Y, +Z, −Z (Reeves
+/// 1987). They store Euclidean distance ([`Kind::Radial`]), so that a depth means the same on every face.
 ///
 /// Faces are right-handed like all views: s to the right, t downward as seen from the light, with −Z up on +Y and +Z up on −Y.
 /// Outside its rectangle a face compares: its neighbours answer there.
@@ -27,7 +27,7 @@ pub fn cube_views(eye: DVec3, near: f64, far: f64, side: u32) -> Result<[View; 6
     Ok([a?, b?, c?, d?, e?, f?])
 }
 
-/// The face that a direction (any length but 0) meets and where, s and t in 0..=1 from its upper left (V49). Where faces meet, the
+/// The face that a direction (any length but 0) meets and where, s and t in 0..=1 from its upper left. Where faces meet, the
 /// first of the order +X, −X, +Y, −Y, +Z, −Z.
 pub fn cube_face(direction: DVec3) -> (usize, DVec2) {
     let (mut face, mut most) = (0, f64::NEG_INFINITY);
@@ -48,7 +48,7 @@ pub fn cube_face(direction: DVec3) -> (usize, DVec2) {
 pub struct Sectors {
     /// Number of views, at least 3: each sees 360°/`count` of azimuth.
     pub count: u32,
-    /// Extra azimuth that each view sees to either side, radians: as wide as the filter, so that neighbours need not be asked.
+    /// Extra azimuth that each view sees to either side, radians: as wide as the filter, so that no look-up goes on in a neighbour.
     pub margin: f64,
     /// Tangent of the highest elevation above and below the horizon that is seen.
     pub tan_elevation: f64,
@@ -56,7 +56,7 @@ pub struct Sectors {
     pub size: UVec2,
 }
 
-/// Views around `eye` about +y, sector i looking toward azimuth 2π·i/count from +x toward −z (Williams 1978; W78-10). They store
+/// Views around `eye` about +y, sector i looking toward azimuth 2π·i/count from +x toward −z (Williams 1978). They store
 /// Euclidean distance; outside they are lit.
 ///
 /// # Errors

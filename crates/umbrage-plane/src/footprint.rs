@@ -3,14 +3,14 @@ use glam::Vec2;
 /// The image of a shaded region in a map, in texel units.
 ///
 /// A pixel's image is a quadrilateral; `centre` and `half` are its bounding box as Reeves' listing wants it
-/// (half-extents, not full sizes: spec E-R3).
+/// (half-extents, not full sizes).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Footprint {
     /// Centre of the bounding box.
     pub centre: Vec2,
     /// Half of the bounding box's width and height, ≥ 0.
     pub half: Vec2,
-    /// The region's corners in order around it. All equal for a point.
+    /// The region's corners in order around it, in texels. All equal for a point.
     pub corners: [Vec2; 4],
 }
 
@@ -38,9 +38,9 @@ impl Footprint {
     }
 
     /// Enlarged about a point of it, the image of what is shaded: half-extents times `factor`, then at least `min_half`, then at most
-    /// `max_half` (Reeves' `ResFactor` and `MinSize`, in that order; R87-12, R87-13). Corners scale alike, axis by axis, so that
+    /// `max_half` (Reeves' `ResFactor` and `MinSize`, in that order). Corners scale alike, axis by axis, so that
     /// the box stays the bounding box of the quadrilateral and all patterns look at one region, not about the quadrilateral's
-    /// centroid (a departure from R87-11 d). Where an axis without extent gets one, the region becomes the box.
+    /// centroid (a departure from Reeves 1987, Fig. 3d). Where an axis without extent gets one, the region becomes the box.
     ///
     /// In perspective the box's centre shows another place of the surface, at another depth, than the point does: the less of the
     /// region's own extent is left, the closer the result lies around the point.
@@ -68,7 +68,7 @@ impl Footprint {
         [((b - a) + (c - d)) * 0.25, ((d - a) + (c - b)) * 0.25]
     }
 
-    /// Twice-signed area of the quadrilateral divided by the area of its bounding box, as a share in 0..=1; 0 for a degenerate box.
+    /// Twice-signed area of the quadrilateral divided by the area of its bounding box, as a fraction in 0..=1; 0 for a degenerate box.
     pub fn quad_share(&self) -> f32 {
         let [a, b, c, d] = self.corners;
         let area = 0.5 * (c - a).perp_dot(d - b).abs();

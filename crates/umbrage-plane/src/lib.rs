@@ -1,14 +1,15 @@
 //! Geometry of a shadow map: views, footprints, tangent planes and receivers.
 //!
 //! An eye and a light are one type here, [`View`]: a rigid placement in the world, a perspective or
-//! orthographic projection, and a grid of texels. Everything the other crates say about a place in a
-//! map is said with the types of this crate, in the conventions below (and in `crates/README.md`).
+//! orthographic projection, and a grid of texels. Everything that the other crates of Umbrage say about a place in a
+//! map is said with the types of this crate, in the [conventions](#conventions) below.
 //!
-//! * World and eye space are right-handed; a view looks down its eye space's −z; ζ = −z is positive in front.
-//! * Texel space: x to the right, y down, texel (i, j) covers \[i, i+1) × \[j, j+1), its centre is at +½.
-//! * Depth grows away from the light; +∞ means *no surface*; at equal depth a point is lit.
-//! * The *key* of a surface is what is affine in texel space on every plane: −1/ζ in perspective
-//!   (it grows with ζ), ζ itself in an orthographic view.
+//! | you have | you get | by |
+//! |---|---|---|
+//! | a light | its [`View`] | [`View::spot`], [`View::directional`], [`View::perspective`], [`cube_views`], [`sector_views`] |
+//! | a shading point, as a [`SurfacePoint`] | its [`Receiver`]: depth, [`Footprint`] in texels, tangent plane | [`View::receiver`], and [`View::receivers`] for many |
+//! | a place on a map | the world's point there, or the ray through it | [`View::world_at`], [`View::ray`] |
+//! | a bias in some unit, as a [`Bias`] | a depth that is nearer by it | [`Receiver::nearer`] |
 //!
 //! ```
 //! use glam::{DVec3, UVec2, Vec3};
@@ -23,7 +24,38 @@
 //! assert_eq!(seen.footprint.centre.as_ivec2(), glam::IVec2::new(39, 21));
 //! ```
 //!
-//! This crate knows no map, no sample and no shadow.
+//! # Conventions
+//!
+//! They hold in all crates of Umbrage.
+//!
+//! ```text
+//!    the light                        a map of 4 × 3 texels
+//!        ●  ζ = 0                     x 0   1   2   3   4
+//!       ╱|╲                         y 0 ┌───┬───┬───┬───┐
+//!      ╱ | ╲                            │   │   │   │   │  row 0 is on top
+//!     ╱──┼──╲   near: ζ = n           1 ├───┼───┼───┼───┤
+//!    ╱   |   ╲                          │   │ ● │   │   │  ● is the centre of texel (1, 1): (1.5, 1.5)
+//!   ╱    ↓    ╲                       2 ├───┼───┼───┼───┤
+//!  ╱     ζ     ╲                        │   │   │   │   │
+//! ╱─────────────╲  far: ζ = f         3 └───┴───┴───┴───┘
+//! ```
+//!
+//! | thing | convention |
+//! |---|---|
+//! | world, eye space | right-handed; a view looks down −z of its eye space; ζ = −z is positive in front |
+//! | lengths | world units, of your choice; positions in f64, normals in f32, of unit length |
+//! | angles | radians |
+//! | texel space | x to the right, y down; texel (i, j) covers \[i, i+1) × \[j, j+1), its centre is at +½ |
+//! | rectangles | half-open: the minimum is inside, the maximum is outside |
+//! | footprints | half-extents in texels, not full sizes |
+//! | depth | grows away from the light; +∞ is *no surface*; stored as the [`Kind`] of the view says, axial (ζ, in world units) unless chosen otherwise |
+//! | key | what is affine over the texels on every plane: −1/ζ in perspective, ζ in an orthographic view, the stored depth itself in views of screen depth |
+//! | comparison | in shadow where the receiver's depth less its bias is greater than the stored depth; equal is lit |
+//! | results | `shadow` and `fraction`: 1 is dark; `transmittance`: 1 is lit |
+//! | bias | a [`Bias`], whose variant is its unit |
+//! | colour | linear light |
+//!
+//! This crate knows no map, no sample and no shadow. It has no features.
 
 #![warn(missing_debug_implementations)]
 

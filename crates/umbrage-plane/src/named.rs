@@ -22,11 +22,11 @@ const MARGIN: f64 = 1.0 / 1024.0;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpotView {
-    /// Where the light stands, in the world.
+    /// Where the light stands, in world space.
     pub eye: DVec3,
     /// A place on its axis, in the world; not the eye.
     pub target: DVec3,
-    /// What is up on its map; `None` stands for [`up_for`] its direction.
+    /// The direction in world space, of any length but 0, that is up on its map; `None` stands for [`up_for`] its direction.
     pub up: Option<DVec3>,
     /// Angle from edge to edge of its cone, radians, within (0, π). The cone touches the upper and lower side of the map.
     pub full_angle_radians: f64,

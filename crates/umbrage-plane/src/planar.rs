@@ -1,6 +1,6 @@
 use glam::{DMat4, DVec4};
 
-/// Flattens points onto a plane as a light throws their shadows there: S = (π·L)·I − L·πᵀ (W78-24, V45, V46).
+/// Flattens points onto a plane as a light throws their shadows there: S = (π·L)·I − L·πᵀ (Williams 1978).
 ///
 /// `plane` is (n, d) with n·p + d = 0 on the plane, `light` a homogeneous point (w = 0: a direction toward the light). Divide by w
 /// afterwards; w ≤ 0 (relative to the sign of π·L) marks points on the wrong side of a point light.

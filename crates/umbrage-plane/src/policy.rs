@@ -1,4 +1,4 @@
-/// Where a point or a sample lies as seen from a light: the six cases that the papers conflate (spec C-10).
+/// Where a point or a sample lies as seen from a light: the six cases that the papers conflate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// Behind a perspective light: ζ ≤ 0.
@@ -15,7 +15,7 @@ pub enum Place {
     Inside,
 }
 
-/// What to answer for a place without asking the map, or to ask it.
+/// What to answer for a place without a look-up, or that a look-up answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Fraction in shadow 0.
@@ -58,7 +58,7 @@ impl Rules {
         near: Verdict::Compare,
         far: Verdict::Compare,
     };
-    /// One of several views around a light: what lies outside is compared, because a neighbour answers there (R87-17).
+    /// One of several views around a light: what lies outside is compared, because a neighbour answers there (Reeves 1987).
     pub const AROUND: Self = Self {
         behind: Verdict::Lit,
         outside: Verdict::Compare,

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 /// offsets from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
-    /// Its centre.
+    /// Its centre, in world space.
     pub position: DVec3,
     /// Geometric unit normal, on the side that is looked at.
     pub normal: Vec3,
@@ -56,7 +56,7 @@ pub enum Bias {
     World(f32),
     /// Widths of a texel at the receiver: τ, the larger of both axes, in world units.
     Texels(f32),
-    /// Depth steps of the receiver's own plane from texel to texel: τ·tanθ (spec D-9). ½ along each axis is free of acne for point look-ups.
+    /// Depth steps of the receiver's own plane from texel to texel: τ·tanθ. ½ along each axis is free of acne for point look-ups.
     Steps(f32),
     /// Fractions of the way from the near plane to the far one, as screen depth z_s measures it: the very numbers that a map of
     /// [`Kind::Screen`] stores, quanta times the quantum for integer depth (Williams 1978). Over a map of another kind it is the same
@@ -72,7 +72,7 @@ impl Bias {
 /// A surface point as a light sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Receiver {
-    /// What its depth means; a map of another kind must not be asked about it (spec C-4).
+    /// What its depth means; it must not be compared with depths of another kind.
     pub kind: Kind,
     /// The region's image in the map.
     pub footprint: Footprint,
@@ -90,11 +90,11 @@ pub struct Receiver {
     pub texel_world: Vec2,
     /// Cosine between normal and the direction to the light; ≤ 0 facing away.
     pub facing: f32,
-    /// Depth change per world unit across the light's rays: tanθ on the axis, the effective slope σ elsewhere (spec D-15). +∞ edge-on.
+    /// Depth change per world unit across the light's rays: tanθ on the axis, the effective slope σ elsewhere. +∞ edge-on.
     pub slope: f32,
     /// Id of the object.
     pub object: u32,
-    /// The centre in the light's eye space.
+    /// The centre in the light's eye space, in world units.
     pub eye: DVec3,
     /// The unit normal in the light's eye space.
     pub normal: DVec3,
@@ -110,7 +110,7 @@ impl Receiver {
 
     /// The depth to compare: this receiver's, moved toward the light by `bias`. The only place where a [`Bias`] is applied.
     ///
-    /// A world bias is exact in every kind of map (spec D-8).
+    /// A world bias is exact in every kind of map.
     #[inline(always)]
     pub fn nearer(&self, view: &View, bias: Bias) -> f32 {
         match bias {
@@ -203,7 +203,7 @@ fn scaled(amount: f32, step: f32) -> f32 {
 }
 
 impl View {
-    /// A surface point as this light sees it: the exact projection of its corners, its depth, slope and facing (spec D-7).
+    /// A surface point as this light sees it: the exact projection of its corners, its depth, slope and facing.
     ///
     /// Corners behind the light are cut off at a sixteenth of the centre's distance; half-extents are capped at a quarter of the map.
     ///
@@ -285,14 +285,14 @@ impl View {
         if whole.half.cmple(most).all() {
             return whole;
         }
-        // A box that is cut to size must still lie around the point that is asked about.
+        // A box that is cut to size must still lie around the point that is looked up.
         let capped = whole.scaled(whole.centre, 1.0, 0.0, most);
         let shift = centre.clamp(whole.centre - whole.half + capped.half, whole.centre + whole.half - capped.half)
             - whole.centre;
         Footprint { centre: capped.centre + shift, corners: capped.corners.map(|corner| corner + shift), ..capped }
     }
 
-    /// The footprint by derivatives instead of exact corners: half-extent = ½(|∂/∂x| + |∂/∂y|) for the region's two axes (spec D-7, second method).
+    /// The footprint by derivatives instead of exact corners: half-extent = ½(|∂/∂x| + |∂/∂y|) for the region's two axes.
     ///
     /// The axes are half the differences of opposite edges' midpoints.
     pub fn derivative_footprint(&self, at: &SurfacePoint) -> Option<Footprint> {

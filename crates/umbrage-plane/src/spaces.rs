@@ -20,7 +20,7 @@ impl View {
         (light.truncate() - world * light.w).normalize_or_zero()
     }
 
-    /// World space to (x_n, y_n, z_s): spec C-2's matrix, whatever the kind.
+    /// World space to (x_n, y_n, z_s): the matrix of screen depth, whatever the map's kind.
     pub fn world_to_screen(&self) -> DMat4 {
         self.eye_to_screen() * self.world_to_eye
     }
@@ -96,7 +96,7 @@ impl View {
         }
     }
 
-    /// A direction of this view's eye space in the world: for normals that are given in a camera's space (WM94-8). Normals of an object's own
+    /// A direction of this view's eye space in the world: for normals that are given in a camera's space (Wang & Molnar 1994). Normals of an object's own
     /// space go through the inverse transpose of its placement.
     pub fn direction_to_world(&self, eye: DVec3) -> DVec3 {
         self.eye_to_world.transform_vector3(eye)
@@ -118,7 +118,7 @@ impl View {
         }
     }
 
-    /// The plane through `eye_point` with `eye_normal` (need not be unit) as a key over texels; `None` when it is edge-on to the light, so that no key exists (spec D-1, D-3).
+    /// The plane through `eye_point` with `eye_normal` (need not be unit) as a key over texels; `None` when it is edge-on to the light, so that no key exists.
     pub fn affine(&self, eye_point: DVec3, eye_normal: DVec3) -> Option<Affine> {
         let plane = self.plane(eye_point, eye_normal);
         (plane.c.is_finite() && plane.dx.is_finite() && plane.dy.is_finite()).then_some(plane)
@@ -214,7 +214,7 @@ impl View {
         }
     }
 
-    /// Width and height of a texel at axial distance `zeta`, in world units (spec D-9's τ).
+    /// Width and height of a texel at axial distance `zeta`, in world units.
     #[inline(always)]
     pub fn texel_world(&self, zeta: f64) -> DVec2 {
         let size = self.size.as_dvec2();

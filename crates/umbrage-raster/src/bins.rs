@@ -11,7 +11,7 @@ const SIDE: i32 = BIN as i32;
 
 /// Triangles sorted into the tiles of a view.
 ///
-/// Tile (i, j) holds texels 32 i ≤ x < 32 (i + 1), 32 j ≤ y < 32 (j + 1), whatever the window. About 64 bytes a triangle kept, and 4 for each tile it reaches.
+/// Tile (i, j) holds texels 32 i ≤ x < 32 (i + 1), 32 j ≤ y < 32 (j + 1), whatever the window. About 64 bytes for each triangle that is kept, and 4 for each tile it reaches.
 #[derive(Clone, Debug)]
 pub struct Bins {
     sampling: Sampling,
@@ -31,7 +31,7 @@ impl Bins {
     ///
     /// Only texels inside `window` (in texels; what of it is outside the view's rectangle is ignored) are ever covered. An empty window gives
     /// bins without a facet. Perspective triangles are cut at 1/1024 of the near distance, not at the near plane: what is between
-    /// is kept with its true key, and counted in [`Stats::before_near`] (C-10). Orthographic ones are not cut in depth at all.
+    /// is kept with its true key, and counted in [`Stats::before_near`]. Orthographic ones are not cut in depth at all.
     ///
     /// `triangles` is run through on the calling thread; the threads of its rayon pool share the work on what it gives. The bins do not
     /// depend on their number.

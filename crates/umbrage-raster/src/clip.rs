@@ -10,7 +10,7 @@ use umbrage_plane::View;
 /// every product of the coverage test within an `i64`.
 pub(crate) const GUARD_TEXELS: f64 = 2_097_152.0;
 
-/// Perspective geometry is cut at this fraction of the near distance. Casters between the light and the near plane must not vanish (C-10),
+/// Perspective geometry is cut at this fraction of the near distance. Casters between the light and the near plane must not vanish,
 /// but ζ = 0 cannot be projected.
 pub(crate) const NEAR_LIMIT: f64 = 1.0 / 1024.0;
 

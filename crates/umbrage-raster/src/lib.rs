@@ -2,7 +2,7 @@
 //!
 //! [`Bins`] takes the triangles of a scene as one view sees them, cuts off what lies behind the view, snaps the corners to
 //! 1/256 texel and sorts the triangles into tiles of [`BIN`]² texels. [`Bins::tile`] then reports, for each triangle that
-//! reaches a tile, exactly which texels' samples it covers, as often as it is asked and from any thread.
+//! reaches a tile, exactly which texels' samples it covers, as often as it is called and from any thread.
 //!
 //! ```
 //! use glam::{DVec3, UVec2};
@@ -22,7 +22,7 @@
 //! });
 //! ```
 //!
-//! What holds (spec X-2):
+//! What holds:
 //!
 //! * A sample on the edge between two triangles belongs to exactly one of them, a sample on a corner to exactly one of the
 //!   triangles around it: the top-left rule, in integers, without a rounding. Coverage does not depend on the order of the corners.
@@ -31,8 +31,9 @@
 //!   snapping, its neighbours then overlap it, and only the snapped orientation cancels one of them.
 //! * What a facet covers is a function of the view and the triangle; neither tiles, windows nor the order of calls change it.
 //!
-//! Conventions are those of [`umbrage_plane`]. This crate knows no depth test and no shadow; it does not clamp depths to the near plane
-//! either (C-10): a facet's key nearer than `view.key(view.near())` is for the depth pass to clamp. In perspective nothing can be
+//! The [conventions](umbrage_plane#conventions) are those of `umbrage-plane`. This crate has no features.
+//! It knows no depth test and no shadow; it does not clamp depths to the near plane
+//! either: a facet's key nearer than `view.key(view.near())` is for the depth pass to clamp. In perspective nothing can be
 //! projected at the light itself: what is nearer than 1/1024 of the near distance is cut off, and counted
 //! ([`Stats::too_near`]).
 
@@ -94,7 +95,7 @@ pub enum Cull {
 /// What became of the triangles that were given.
 ///
 /// Each is kept or counted in exactly one of `not_finite`, `zero_area`, `culled`, `outside` and `missed`;
-/// `clipped` and `before_near` tell of those that were kept.
+/// `clipped` and `before_near` count some of those that were kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Stats {
     /// Triangles given.
@@ -114,7 +115,7 @@ pub struct Stats {
     /// Nearer than the near plane somewhere; the depth pass clamps their depths to it.
     pub before_near: u64,
     /// In front of a perspective view, but nearer than 1/1024 of its near distance somewhere: that part is cut off, and with it
-    /// whatever shadow it throws (C-10). Also counted where they were kept or skipped.
+    /// whatever shadow it throws. Also counted where they were kept or skipped.
     pub too_near: u64,
 }
 

@@ -14,7 +14,7 @@
 //! # Ok::<(), umbrage_recipe::RecipeError>(())
 //! ```
 //!
-//! A filter made by hand is put over a map by [`bind`].
+//! A filter made by hand is put over a map by [`bind`]. The [guide] leads from a renderer to shadows, by this crate and those below it.
 
 mod bake;
 mod bind;
@@ -22,6 +22,8 @@ mod engine;
 mod error;
 mod field;
 mod fields;
+#[doc = include_str!("../GUIDE.md")]
+pub mod guide {}
 mod kind;
 mod light;
 mod moments;

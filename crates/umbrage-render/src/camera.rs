@@ -5,7 +5,7 @@ use umbrage_bake::Masks;
 use umbrage_plane::{Cells, Facet, Facing, SurfacePoint, View};
 use umbrage_raster::{BIN, Bins, each_fragment};
 
-/// A piece of one surface within one pixel: what is shaded once (R87-8).
+/// A piece of one surface within one pixel: what is shaded once (Reeves 1987).
 pub(crate) struct Region {
     /// Where and how large it is; its normal is the geometric one on the visible side.
     pub point: SurfacePoint,
@@ -13,7 +13,7 @@ pub(crate) struct Region {
     pub shading_normal: Vec3,
     /// What multiplies the diffuse colour, linear RGB.
     pub texture: Vec3,
-    /// Share of the pixel's samples.
+    /// Fraction of the pixel's samples.
     pub share: f32,
     /// Index of the pixel within its tile.
     pub pixel: u32,
@@ -32,14 +32,14 @@ const NONE: Sample = Sample { key: f32::INFINITY, facet: u32::MAX };
 
 /// The camera's pass over one tile of samples: visible surfaces, gathered into regions pixel by pixel.
 ///
-/// `view` is the camera with `axis` × `axis` texels a pixel.
+/// `view` is the camera with `axis` × `axis` texels per pixel.
 pub(crate) struct Gather<'a> {
     pub soup: &'a Soup<'a>,
     pub bins: &'a Bins,
     pub masks: &'a Masks<'a>,
     pub view: &'a View,
     pub axis: u32,
-    /// One region a sample instead of one a surface.
+    /// One region per sample instead of one per surface.
     pub every_sample: bool,
     /// Pixels across the picture.
     pub width: u32,

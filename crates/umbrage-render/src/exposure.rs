@@ -43,7 +43,7 @@ pub fn light_shadow(
     recipe.shadow_of(std::slice::from_ref(view), &with, casters)
 }
 
-/// [`light_map`] over an exposure, `moments` being the scene at evenly spread times (EXT-2): deep maps hold the mean of them; of maps of one
+/// [`light_map`] over an exposure, `moments` being the scene at evenly spread times: deep maps hold the mean of them; of maps of one
 /// surface each texel sees one of them. An empty map of none. Beside it, what became of the triangles of all moments.
 ///
 /// # Panics
@@ -68,7 +68,7 @@ fn casting<'m>(
     moments.iter().zip(covers).map(|(scene, (test, blend))| Soup::casters(scene, view).into_casting(test, blend))
 }
 
-/// Pass 1 over an exposure: each texel sees the scene at one of its moments, drawn once per texel from `seed` (EXT-2). A filter over such a
+/// Pass 1 over an exposure: each texel sees the scene at one of its moments, drawn once per texel from `seed`. A filter over such a
 /// map blurs what moves, with noise.
 ///
 /// `moments` are the scene at evenly spread times, each made into a map of `view` by `bake`; none gives an empty map.
@@ -78,7 +78,7 @@ pub fn expose<M: DepthMap>(view: &View, moments: &[&Scene], seed: u32, bake: imp
 }
 
 /// The deep map of an exposure: the mean over its moments of what passes the surfaces of a scene
-/// ([`Object::passes`](umbrage_scene::Object::passes); B06-11, EXT-2, EXT-3).
+/// ([`Object::passes`](umbrage_scene::Object::passes)).
 ///
 /// `moments` are the scene at evenly spread times, one of them for a scene at rest; none gives an empty map.
 ///

@@ -1,7 +1,7 @@
 //! Pictures from scenes, and the maps of a scene's lights: the library crate that joins scenes, maps and shadows.
 //!
 //! The reading path: a [`Soup`] is a scene's triangles for one view; [`bake`](umbrage_bake::bake) makes a light's depth map of it;
-//! [`bind`](umbrage_recipe::bind) puts a filter over the map in the storage that is asked for; [`picture`] draws the camera's image with it.
+//! [`bind`](umbrage_recipe::bind) puts a filter over the map in the storage that is given; [`picture`] draws the camera's image with it.
 //!
 //! ```
 //! use umbrage_bake::bake;
@@ -18,9 +18,12 @@
 //! let baked = bake(&light, Soup::casters(&scene, &light).triangles(), &First, Cull::None);
 //! let shadow = bind(presets::reeves87().filter, &baked.map, Storage::Tiled);
 //! let image = picture(&scene, &[&*shadow], &Frame::default());
-//! assert!(image.shadow[0].iter().any(|&share| share > 0.9));
+//! assert!(image.shadow[0].iter().any(|&fraction| fraction > 0.9));
 //! # Ok::<(), umbrage_plane::ViewError>(())
 //! ```
+//!
+//! The [conventions](umbrage_plane#conventions) are those of `umbrage-plane`. A pinhole camera, direct light, diffuse and specular
+//! shading: enough of a renderer to judge a shadow by, and no more. It opens no file and has no features.
 
 mod camera;
 mod exposure;

@@ -4,7 +4,7 @@ use umbrage_recipe::{LightShadow, Recipe, RecipeError};
 use umbrage_scene::{Light, Scene};
 use umbrage_shadow::{Shadow, Unshadowed};
 
-/// The map of each light, in their order, as the recipe of its own tree wants it, or `default` where the tree names none (R87-18);
+/// The map of each light, in their order, as the recipe of its own tree wants it, or `default` where the tree names none (Reeves 1987);
 /// `None` for lights that do not cast.
 ///
 /// # Errors

@@ -10,27 +10,27 @@ use umbrage_sample::Key;
 use umbrage_scene::Scene;
 use umbrage_shadow::Shadow;
 
-/// How the camera's picture is sampled.
+/// How the camera's picture is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame {
-    /// Visibility samples a pixel along each axis: 1, 2, 4 or 8 (other values count as the next lower of these). All samples of a
-    /// picture are one grid of at most 32,768 a side: pictures too large for that are drawn with as many as fit.
+    /// Visibility samples per pixel along each axis: 1, 2, 4 or 8 (other values count as the next lower of these). All samples of a
+    /// picture are one grid of at most 32,768 per side: pictures too large for that are drawn with as many as fit.
     pub axis: u32,
     /// Samples jittered within their cells instead of at cell centres.
     pub stochastic: bool,
     /// Shades every sample by itself instead of once per surface and pixel: slow, and what truth is made with.
     pub every_sample: bool,
     /// Gives shadows the interpolated normal instead of the geometric one: the plane that Wang & Molnar fit where surfaces are shaded
-    /// smoothly (WM94-11).
+    /// smoothly.
     pub smooth: bool,
     /// Seed of the camera's jitter and of the shadows' keys.
     pub seed: u32,
-    /// Number of the frame (R87-25): another frame, other random numbers. Keep it constant for static noise.
+    /// Number of the frame (Reeves 1987): another frame, other random numbers. Keep it constant for static noise.
     pub number: u32,
 }
 
 impl Default for Frame {
-    /// 16 stochastic samples a pixel, shaded once per surface.
+    /// 16 stochastic samples per pixel, shaded once per surface.
     fn default() -> Self {
         Self { axis: 4, stochastic: true, every_sample: false, smooth: false, seed: 0, number: 0 }
     }
@@ -78,7 +78,7 @@ pub struct Picture {
     pub facing: Vec<Vec<f32>>,
     /// The object of the pixel's largest region, or [`NOTHING`].
     pub object: Vec<u32>,
-    /// Share of the pixel's samples that meet that object.
+    /// Fraction of the pixel's samples that meet that object.
     pub share: Vec<f32>,
     /// Position of that region, world space; NaN where nothing is seen.
     pub position: Vec<DVec3>,
@@ -87,16 +87,16 @@ pub struct Picture {
     /// Distance along the camera's axis of that region; +∞ where nothing is seen.
     pub depth: Vec<f32>,
     /// Samples generated, hidden ones included: the points that Williams' point-by-point mode transforms when it tests
-    /// every one before it is shaded (W78-4, W78-22, X-6).
+    /// every one before it is shaded.
     pub fragments: u64,
     /// Those of them that were nearer than all before, in the scene's order: what that mode transforms when only points
-    /// that pass the depth test are asked about. The picture is the same.
+    /// that pass the depth test are looked up. The picture is the same.
     pub passing: u64,
     /// Regions shaded: points transformed to each light.
     pub regions: u64,
 }
 
-/// Pass 2: the camera's picture of a scene, with `shadows[i]` deciding what of light i arrives (R87-1).
+/// Pass 2: the camera's picture of a scene, with `shadows[i]` deciding what of light i arrives (Reeves 1987).
 ///
 /// Lights beyond the end of `shadows`, and those that do not cast ([`umbrage_scene::Light::casts`]), have no shadow.
 pub fn picture(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame) -> Picture {
@@ -145,7 +145,7 @@ struct Pixel {
     covered: f32,
     shadow: Vec<f32>,
     facing: Vec<f32>,
-    /// Objects met, each with its share of the samples.
+    /// Objects met, each with its fraction of the samples.
     objects: Vec<(u32, f32)>,
     best: f32,
     point: SurfacePoint,
@@ -245,7 +245,7 @@ impl Pixel {
         }
     }
 
-    /// The share of the samples that meet the object of the largest region.
+    /// The fraction of the samples that meet the object of the largest region.
     fn share(&self) -> f32 {
         self.objects.iter().find(|(object, _)| *object == self.point.object).map_or(0.0, |(_, share)| *share)
     }

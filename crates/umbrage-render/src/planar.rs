@@ -20,7 +20,7 @@ pub struct Ground {
     pub half_side: f64,
 }
 
-/// The cheaper method that Williams contrasts with his: every caster is flattened onto one plane (Williams 1978; W78-24).
+/// The cheaper method that Williams contrasts with his: every caster is flattened onto one plane (Williams 1978).
 ///
 /// The shadow is drawn once into a mask of the plane, so that nothing darkens twice. Points elsewhere get no shadow, whatever stands
 /// between them and the light: not other objects, not curved receivers.

@@ -3,7 +3,7 @@ use glam::Vec3;
 use umbrage_scene::{Light, Material, Scene};
 
 /// The light that a region sends to the camera: ambient, and per light Lambert and Blinn terms scaled by its
-/// transmittance. Highlights never appear in shadow, because the shadow is part of the shading (W78-4, R87-1, R87-23).
+/// transmittance. Highlights never appear in shadow, because the shadow is part of the shading (Williams 1978, Reeves 1987).
 pub(crate) fn shade(scene: &Scene, region: &Region, toward_eye: Vec3, transmittance: &[Vec3]) -> Vec3 {
     let material = &scene.objects[region.point.object as usize].material;
     let material = Material { diffuse: material.diffuse * region.texture, ..*material };

@@ -8,7 +8,7 @@ use umbrage_scene::{Cover, Mesh, MeshError, Object, Scene};
 
 /// The triangles of a scene for one view, and the way back from a triangle's index to its mesh.
 ///
-/// Patches are diced for the view (W78-23), meshes are borrowed.
+/// Patches are diced for the view (Williams 1978), meshes are borrowed.
 pub struct Soup<'a> {
     /// What the positions of the meshes are relative to.
     origin: DVec3,
@@ -72,7 +72,7 @@ impl Piece<'_> {
 }
 
 impl<'a> Soup<'a> {
-    /// The objects that cast: what pass 1 draws (R87-5).
+    /// The objects that cast: what pass 1 draws (Reeves 1987).
     ///
     /// # Panics
     /// When a mesh's indices or lengths do not fit together ([`Mesh::check`]), or the scene's origin is not finite. Vertices

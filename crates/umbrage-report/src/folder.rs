@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 
-/// `figure.json`: the record, and what tells whether it may be used again.
+/// `figure.json`: the record, and what shows whether it may be used again.
 #[derive(Serialize, Deserialize)]
 struct Kept {
     /// Stands for the program that made the figure.
@@ -95,7 +95,7 @@ pub fn write(
     Ok(kept.figure)
 }
 
-/// A panel as the bytes of a PNG file, pixels replicated by its zoom.
+/// A panel as the bytes of a PNG file, pixels replicated by its zoom.
 pub fn png(panel: &Panel) -> anyhow::Result<Vec<u8>> {
     ensure!(panel.zoom > 0, "panel {} has zoom 0", panel.name);
     let (size, pixels) = umbrage_io::replicate(panel.size, &panel.pixels, panel.zoom);

@@ -5,10 +5,10 @@ use glam::UVec2;
 
 /// Pixels from line to line.
 pub const LINE: u32 = 15;
-/// Pixels that every letter's box has a row.
+/// Pixels that every letter's box has per row.
 const ROW: u32 = 12;
 
-/// Each letter's width and its pixels: six digits a row, two bits a pixel from the left, 3 where it is wholly covered. What is blank at the end
+/// Each letter's width and its pixels: six digits per row, two bits per pixel from the left, 3 where it is wholly covered. What is blank at the end
 /// is left out.
 #[rustfmt::skip]
 const LETTERS: &[(char, u32, &str)] = &[

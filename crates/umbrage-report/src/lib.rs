@@ -10,7 +10,7 @@
 //! use umbrage_report::{Entry, Heading, Made, Measure, Run, Verdict, Words};
 //!
 //! let heading = Heading {
-//!     id: "T-1".into(),
+//!     id: "sum".into(),
 //!     paper: "Trials".into(),
 //!     title: "A sum".into(),
 //!     claim: "Two and two are four.".into(),
@@ -22,6 +22,8 @@
 //! assert_eq!(run.make()?.count(Verdict::Reproduced), 1);
 //! # Ok::<(), anyhow::Error>(())
 //! ```
+//!
+//! This crate opens files in the run's own folder only. It has no features.
 
 pub mod diagram;
 mod folder;

@@ -1,6 +1,6 @@
 //! What is kept of a finished figure: what `figure.json`, `report.json` and the gallery are written from.
 //!
-//! A record holds no time and nothing of the machine, the threads or the storage: it is the same bytes on every run.
+//! A record holds no time and nothing of the machine, the threads or the storage: it is the same bytes on every run.
 
 use crate::made::{Made, Verdict};
 use crate::measure::{Bound, Kind, Measure};

@@ -28,12 +28,12 @@ pub struct Run<'a> {
     pub words: Words,
     /// The ids of the figures that are made; none makes all. The others stay on the page if the folder holds them.
     pub only: Vec<String>,
-    /// Smaller pictures and fewer samples: a figure of which nothing is judged is no fault then.
+    /// Smaller pictures and fewer samples: a figure of which nothing is judged is not a fault then.
     pub quick: bool,
     /// Stands for all that the entries' pictures and numbers depend on beside this program, in words: a figure that was made
     /// with other settings is made again.
     pub settings: String,
-    /// Worker threads; `None` is one a core. They must change no bit.
+    /// Worker threads; `None` is one per core. They must change no bit.
     pub threads: Option<usize>,
     /// The folder that is filled.
     pub out: PathBuf,
@@ -43,9 +43,9 @@ pub struct Run<'a> {
 type Standing = BTreeMap<usize, (FigureRecord, Timings)>;
 
 impl Run<'_> {
-    /// Makes what is asked and not there yet. The page and the report in the folder are written anew after each figure that
+    /// Makes what is chosen and not there yet. The page and the report in the folder are written anew after each figure that
     /// is made, so that a run that is stopped leaves them whole; they hold all figures that the folder does, each that
-    /// another build or other settings made marked as such. The report that is returned holds the figures that were asked.
+    /// another build or other settings made marked as such. The report that is returned holds the figures that were chosen.
     ///
     /// # Errors
     /// When a figure fails, judges nothing in a full run, or names two of its things alike; when a file cannot be written.
@@ -325,7 +325,7 @@ mod tests {
         many(&ids, &["C"], &out, true).make().unwrap();
         assert_eq!(on_page(&out), [now("C")]);
         let asked = many(&ids, &["A"], &out, true).make().unwrap();
-        assert_eq!(asked.figures.len(), 1, "what is judged is what was asked");
+        assert_eq!(asked.figures.len(), 1, "what is judged is what was chosen");
         assert_eq!(on_page(&out), [now("A"), now("C")], "in the order of the gallery");
         many(&ids, &["B"], &out, false).make().unwrap();
         assert_eq!(

@@ -19,7 +19,7 @@ pub fn escape(text: &str) -> String {
 }
 
 /// Text as it is printed: `1e-3` is 10⁻³, `x^2` is x², `tau` is τ, `N.L` is N·L and `-1` is −1. Recipes and ids such as
-/// `epsilon=0.01` and `D-9` stay as they are written. A power that Unicode cannot raise keeps its `^`.
+/// `epsilon=0.01` and `12-13` stay as they are written. A power that Unicode cannot raise keeps its `^`.
 pub fn proper(text: &str) -> String {
     let letters: Vec<char> = text.chars().collect();
     let mut out = String::with_capacity(text.len());
@@ -72,7 +72,7 @@ pub fn html(text: &str) -> String {
     out
 }
 
-/// A number at the start of `text` as it is printed, and how many letters it was; `None` for a hyphen that is no sign.
+/// A number at the start of `text` as it is printed, and how many letters it was; `None` for a hyphen that is not a sign.
 fn number(text: &[char], before: Option<char>) -> Option<(String, usize)> {
     let digits = |from: usize| text[from..].iter().take_while(|one| one.is_ascii_digit()).count();
     let point = |at: usize| text.get(at) == Some(&'.') && digits(at + 1) > 0;

@@ -2,7 +2,7 @@ use crate::{Key, Pattern, Taps, grid::Area};
 use fearless_simd::{Simd, f32x16, prelude::*};
 use umbrage_plane::Footprint;
 
-/// One tap at the region's centre: the ordinary shadow map look-up (R87-15).
+/// One tap at the region's centre: the ordinary shadow map look-up (Reeves 1987).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Centre;
 

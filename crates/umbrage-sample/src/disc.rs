@@ -6,7 +6,7 @@ use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::Vec2;
 use umbrage_plane::Footprint;
 
-/// How densely a [`Disc`] is covered (B06-7, D-14).
+/// How densely a [`Disc`] is covered (Burley 2006).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Density {
     /// The same everywhere: radius √y. Burley's pattern for blurring.
@@ -16,7 +16,7 @@ pub enum Density {
     Centred,
 }
 
-/// The Hammersley set on the ellipse inscribed in the bounding box: a disc where the box is square (Burley 2006; B06-7, B06-8).
+/// The Hammersley set on the ellipse inscribed in the bounding box: a disc where the box is square (Burley 2006).
 ///
 /// Point i of n has angle 2π·i/n, counted from +x toward +y, and a radius made from the radical inverse of i.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +28,7 @@ pub struct Disc {
     pub density: Density,
     /// Whether each region turns the set by an angle of its own: noise instead of the same bands everywhere.
     pub rotate: bool,
-    /// Whether radii are made from y + ½/n, so that no tap is at the centre and their mean is unbiased (E-B8).
+    /// Whether radii are made from y + ½/n, so that no tap is at the centre and their mean is unbiased.
     pub half_offset: bool,
 }
 
@@ -52,7 +52,7 @@ pub const fn radical_inverse(index: u32) -> f32 {
 }
 
 /// Point `index` of the two-dimensional Hammersley set of `count` points: (index/count, radical inverse of index), in \[0, 1)²
-/// for `index < count` (B06-7, V60).
+/// for `index < count` (Burley 2006).
 #[inline(always)]
 pub fn hammersley(index: u32, count: u32) -> Vec2 {
     Vec2::new(index as f32 / count as f32, radical_inverse(index))

@@ -5,7 +5,7 @@ use crate::{
 use fearless_simd::Simd;
 use umbrage_plane::Footprint;
 
-/// Every texel of the region once: the reference that sampling approximates (Reeves 1987, Fig. 2b; R87-11 "exhaustive").
+/// Every texel of the region once: the reference that sampling approximates (Reeves 1987, Fig. 2b).
 ///
 /// A texel belongs to the region when its centre lies in `[centre − half, centre + half)` on both axes; an axis on
 /// which none does has the one texel under the region's centre. Taps are texel centres, row by row (that one texel's

@@ -5,11 +5,11 @@ use crate::{
 use fearless_simd::{Simd, f32x16};
 use umbrage_plane::Footprint;
 
-/// Independent positions under a normal law cut off at the bounding box (Reeves 1987, Fig. 3b; R87-11 b): denser toward the centre.
+/// Independent positions under a normal law cut off at the bounding box (Reeves 1987, Fig. 3b): denser toward the centre.
 ///
 /// The standard deviation is half of the half-extent on each axis, so that the box is ±2σ. The paper leaves the
 /// deviation open. Drawing again whatever falls outside would take a varying number of draws (0.911 of them
-/// stay inside, V25); the same law is reached here by inverting its distribution, with one draw an axis (C-9).
+/// stay inside); the same law is reached here by inverting its distribution, with one draw per axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Gaussian {

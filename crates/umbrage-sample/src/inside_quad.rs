@@ -4,9 +4,9 @@ use glam::{DVec2, Vec2};
 use umbrage_plane::Footprint;
 
 /// Inside the region's own boundary, by rejection: [`Jittered`] over the bounding box, without the taps that fall outside
-/// the quadrilateral (Reeves 1987, Fig. 3d; R87-11 d1).
+/// the quadrilateral (Reeves 1987, Fig. 3d).
 ///
-/// The number of taps varies with the quadrilateral's share of its box. When none falls inside, one tap is taken at the
+/// The number of taps varies with the fraction of its box that the quadrilateral covers. When none falls inside, one tap is taken at the
 /// centroid. Quadrilaterals that are not convex, cross themselves or have no area are sampled as
 /// their bounding box.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,7 +16,7 @@ pub struct InsideQuadReject(
 );
 
 /// Inside the region's own boundary, by warping: a jittered unit square mapped bilinearly onto the quadrilateral, each tap
-/// weighted by the mapping's local area, relative to its mean (Reeves 1987, Fig. 3d; R87-11 d2).
+/// weighted by the mapping's local area, relative to its mean (Reeves 1987, Fig. 3d).
 ///
 /// The grid's counts are those of a box with the quadrilateral's mean side lengths; columns run from the first corner toward the
 /// second, rows toward the fourth. Quadrilaterals that are not convex, cross themselves or have no area are

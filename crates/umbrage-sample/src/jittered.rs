@@ -7,16 +7,16 @@ use fearless_simd::{Simd, f32x16};
 use glam::{UVec2, Vec2};
 use umbrage_plane::Footprint;
 
-/// One random position in each cell of a grid over the bounding box (Reeves 1987, Fig. 3c and Fig. 4; R87-13 steps 4 and 5):
+/// One random position in each cell of a grid over the bounding box (Reeves 1987, Fig. 3c and Fig. 4):
 /// close to a Poisson disc, and less noisy than independent positions. The default.
 ///
-/// Departures from the printed listing: (1) both counts are at least `min_samples` and never 0 (E-R5, E-R6);
-/// (2) the jitter spans the whole cell, so that no part of the box is left out (E-R9, V09); (3) a region without extent is one tap (E-R17).
+/// Departures from the printed listing: (1) both counts are at least `min_samples` and never 0;
+/// (2) the jitter spans the whole cell, so that no part of the box is left out; (3) a region without extent is one tap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Jittered {
     /// Wanted number of taps; 0 counts as 1, and no more than 65,536 are taken. Not a bound: up to half as many again are used with
-    /// `min_samples` 1, up to `min_samples` times as many otherwise (E-R7).
+    /// `min_samples` 1, up to `min_samples` times as many otherwise.
     pub num_samples: u32,
     /// Least number of cells along each axis, at most `num_samples`.
     pub min_samples: u32,
@@ -52,10 +52,10 @@ const HALVES_SQUARED: [f32; 16] = {
 };
 
 impl Jittered {
-    /// Columns and rows of the grid for a region of the given half-extents, in texels (R87-13 step 4).
+    /// Columns and rows of the grid for a region of the given half-extents, in texels.
     ///
     /// While the region covers fewer texels than there are taps, one column a texel; beyond, cells as near to squares as the
-    /// number of taps allows. Rows are counted first, so the two axes are not alike (E-R8).
+    /// number of taps allows. Rows are counted first, so the two axes are not alike.
     #[inline(always)]
     pub fn counts(&self, half: Vec2) -> UVec2 {
         let n = self.num_samples.clamp(1, 65_536);

@@ -3,7 +3,7 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use umbrage_plane::mix32;
 
-/// Names one stream of randomness: a region of one frame under one light (spec C-9).
+/// Names one stream of randomness: a region of one frame under one light.
 ///
 /// The same key gives the same numbers for any thread count, storage and culling. Per-tap code takes numbers by
 /// index ([`Key::bits`]); tables and scenes that are drawn once use the stream of [`Key::rng`].

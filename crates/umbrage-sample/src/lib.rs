@@ -34,7 +34,17 @@
 //! assert_eq!(taps, 16);
 //! ```
 //!
-//! This crate knows no map and no depth: what a tap finds is its caller's business.
+//! ```text
+//! EveryTexel      Jittered        Uniform         Disc
+//! ┌─┬─┬─┬─┐       ┌───┬───┐       ┌───────┐       ┌───────┐
+//! │·│·│·│·│       │ · │  ·│       │ · ·   │       │  · ·  │
+//! ├─┼─┼─┼─┤       ├───┼───┤       │     · │       │·  ·  ·│
+//! │·│·│·│·│       │·  │ · │       │·  ·   │       │  ·  · │
+//! └─┴─┴─┴─┘       └───┴───┘       └───────┘       └───────┘
+//! ```
+//!
+//! The [conventions](umbrage_plane#conventions) are those of `umbrage-plane`. This crate knows no map and no depth: what a tap
+//! finds is its caller's business. It has no features.
 
 #![warn(missing_debug_implementations)]
 

@@ -13,7 +13,7 @@ use umbrage_plane::Footprint;
 /// [`Jittered`]'s and every region has taps of its own. Taps of one region are not independent of one another: over many regions, the variance
 /// of the fraction that lies beyond an edge differs from [`Jittered`]'s by up to 15 %, either way.
 ///
-/// It is not the default, because it saves little: of sixteen-tap percentage closer with AVX2, 516 instructions a region instead of 564, and with
+/// It is not the default, because it saves little: of sixteen-tap percentage closer with AVX2, 516 instructions per region instead of 564, and with
 /// the way into the light's space 956 instead of 1004; some 3 % of the time in medians of interleaved runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Table(

@@ -10,7 +10,7 @@ pub struct Taps<S: Simd> {
     pub x: f32x16<S>,
     /// Rows, in texel space.
     pub y: f32x16<S>,
-    /// One uniform number in \[0, 1) a tap, for what the receiver's depth draws (a bias).
+    /// One uniform number in \[0, 1) for each tap, for what the receiver's depth draws (a bias).
     pub u: f32x16<S>,
     /// Bit i set: tap i takes part; bits 16 and up are 0. The others hold positions that may be read but do not count.
     pub mask: u32,
@@ -28,10 +28,10 @@ impl<S: Simd> Taps<S> {
     }
 }
 
-/// Where to look within a region of a map (Reeves 1987, §2, Fig. 3; R87-11).
+/// Where to look within a region of a map (Reeves 1987, §2, Fig. 3).
 ///
 /// Every tap that takes part lies inside the closed box `[centre − half, centre + half]` of the region, as computed
-/// in f32. A tap of index k draws its numbers from the key's sample k (C-9): dimension 0 the position in x, 1 the position in y,
+/// in f32. A tap of index k draws its numbers from the key's sample k: dimension 0 the position in x, 1 the position in y,
 /// 2 the number `u`; 3 to 7 are free for patterns that need more. So each tap has its own fixed numbers, in
 /// whatever order taps are worked on.
 ///
@@ -61,7 +61,7 @@ pub struct Tap {
     pub weight: f32,
 }
 
-/// Calls `each` with every tap of a region, in order; at least once. The base of filters over things that are no depths (R87-26).
+/// Calls `each` with every tap of a region, in order; at least once. The base of filters over things that are not depths (Reeves 1987).
 ///
 /// The taps are those of [`Pattern::taps`], bit for bit, whatever instructions the machine has.
 pub fn each_tap(pattern: &impl Pattern, region: &Footprint, key: Key, each: impl FnMut(&Tap)) {

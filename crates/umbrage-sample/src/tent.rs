@@ -3,7 +3,7 @@ use fearless_simd::{Simd, f32x16, prelude::*};
 use umbrage_plane::Footprint;
 
 /// [`EveryTexel`] with weights that fall in a straight line from the region's centre to its sides, on both axes: of the nearest four texels
-/// (a half-extent of 1) those of bilinear interpolation (WM94-6).
+/// (a half-extent of 1) those of bilinear interpolation (Wang & Molnar 1994).
 ///
 /// An axis of at most one texel's extent has one tap, of weight 1: its texel's centre may lie on the region's side, where nothing would count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

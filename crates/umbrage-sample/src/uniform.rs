@@ -5,7 +5,7 @@ use crate::{
 use fearless_simd::Simd;
 use umbrage_plane::Footprint;
 
-/// Independent positions, uniform in the bounding box (Reeves 1987, Fig. 3a; R87-11 a). *Luxo Jr.* was made with it.
+/// Independent positions, uniform in the bounding box (Reeves 1987, Fig. 3a). *Luxo Jr.* was made with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Uniform {

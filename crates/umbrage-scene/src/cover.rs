@@ -12,7 +12,7 @@ pub struct Cover {
     /// Its colour multiplies [`Material::diffuse`](crate::Material::diffuse). Without one, colour and alpha are 1.
     pub texture: Option<Arc<Texture>>,
     /// The alpha test: nothing of the object is where the texture's alpha is below this. Light passes there, and the camera sees what is
-    /// behind. `None` never asks. To multiply alpha by a factor, divide this by the factor, which may be 0: a positive cutoff becomes
+    /// behind. `None` never tests. To multiply alpha by a factor, divide this by the factor, which may be 0: a positive cutoff becomes
     /// +∞, where nothing is there, and a cutoff of 0 becomes NaN, where everything is, as nothing is below NaN.
     pub cutoff: Option<f32>,
     /// Whether the texture's alpha says how much light passes: all of it where alpha is 0, what
@@ -36,7 +36,7 @@ impl Cover {
         Self { blends: true, ..Self::textured(texture) }
     }
 
-    /// Whether [`Cover::is_there`] has to be asked.
+    /// Whether [`Cover::is_there`] has to be evaluated.
     pub fn has_holes(&self) -> bool {
         self.cutoff.is_some()
     }

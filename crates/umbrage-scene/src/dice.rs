@@ -7,10 +7,10 @@ use umbrage_plane::{Projection, View};
 
 /// Most pieces along one side of a patch. Beyond it, on patches more than a thousand texels long, pieces grow larger than a texel.
 pub const MOST_PIECES: u32 = 1024;
-/// Pieces along a side of a patch that is seen and reaches behind the eye, where no size can be told.
+/// Pieces along a side of a patch that is seen and reaches behind the eye, where no size can be known.
 const BEHIND_PIECES: u32 = 256;
 
-/// Cuts Bézier patches into pieces whose sides are no longer than a texel of `view` (Williams 1978; W78-23), at most
+/// Cuts Bézier patches into pieces whose sides are no longer than a texel of `view` (Williams 1978), at most
 /// [`MOST_PIECES`] along a side of a patch. Patches that reach behind a perspective view's eye get 256; those wholly outside the
 /// view are not cut for their own sake.
 ///

@@ -1,4 +1,4 @@
-//! Finding a light's view by itself (spec EXT-9).
+//! Finding a light's view by itself.
 
 use crate::{Light, Scene};
 use glam::{DVec2, DVec3, UVec2};
@@ -97,7 +97,7 @@ impl Ball {
 }
 
 impl Scene {
-    /// Ids of the objects that may throw a shadow onto something that the camera sees, judged by balls around them (EXT-9): all that
+    /// Ids of the objects that may throw a shadow onto something that the camera sees, judged by balls around them: all that
     /// a light's map has to hold.
     pub fn relevant_casters(&self, light: &View) -> Vec<u32> {
         let balls: Vec<Option<Ball>> = self.objects.iter().map(|object| ball(self.hull(object))).collect();
@@ -116,7 +116,7 @@ impl Scene {
     }
 
     /// The light with the narrowest view that holds every relevant caster ([`Scene::relevant_casters`]), from its own place: what
-    /// the map's sides, near and far planes are is found (EXT-9). Sampling, cone and map size stay, and the kind unless another suits the new
+    /// the map's sides, near and far planes are is found. Sampling, cone and map size stay, and the kind unless another suits the new
     /// range ([`Kind::of_range`]); texels need not be square.
     ///
     /// What the light lights does not change. A light that shines alike in all directions is turned toward its casters. One
@@ -221,7 +221,7 @@ fn ball(points: impl Iterator<Item = DVec3>) -> Option<Ball> {
 }
 
 /// `light` turned toward a ball and closed in around it: full angle 2·asin(R/d) over both sides of the map, near plane at
-/// d − R, far plane at d + R (V66). Parallel light keeps its direction.
+/// d − R, far plane at d + R. Parallel light keeps its direction.
 ///
 /// # Errors
 /// [`FrameError::Aimed`] for a view with a cone, which would be turned along; [`FrameError::Inside`] when a light in

@@ -1,7 +1,7 @@
 //! Meshes, bicubic patches, materials, textures, lights and the gallery of the papers' scenes.
 //!
 //! Pure data: a [`Scene`] is objects, lights and a camera, and nothing in it is drawn or cast here. Cameras and lights are
-//! [`umbrage_plane::View`]s, whose conventions (right-handed world, texel rows from the top) hold throughout; y is up in
+//! [`umbrage_plane::View`]s, whose [conventions](umbrage_plane#conventions) hold throughout; y is up in
 //! the gallery's pictures.
 //!
 //! ```
@@ -13,6 +13,8 @@
 //! let (toward_light, arriving) = scene.lights[0].incident(glam::DVec3::ZERO);
 //! assert!(toward_light.z > 0.0 && arriving.x > 0.0);
 //! ```
+//!
+//! This crate opens no file: `umbrage-gltf` reads and writes scenes. It has no features.
 
 mod cover;
 mod dice;

@@ -7,20 +7,20 @@ use umbrage_plane::{Rules, SpotView, View, ViewError, up_for};
 pub struct Light {
     /// Name for people.
     pub name: String,
-    /// Placement, frustum, map size, cone and the answers outside (spec C-10).
+    /// Placement, frustum, map size, cone and the answers outside.
     pub view: View,
-    /// Linear RGB radiance factor; a shadow scales each channel (R87-23).
+    /// Linear RGB radiance factor; a shadow scales each channel (Reeves 1987).
     pub colour: Vec3,
     /// Whether it has a shadow map.
     pub casts: bool,
-    /// What it sends where, beyond its colour (R87-18); `None` sends its colour everywhere it reaches, times what passes.
+    /// What it sends where, beyond its colour (Reeves 1987); `None` sends its colour everywhere it reaches, times what passes.
     pub tree: Option<Tree>,
 }
 
 impl Light {
     /// A light at infinity, in the direction `to_light` (any length but 0). Its map is `half_extent` world units high to
     /// either side of `target`; the target lies midway between the near and far planes, `near` < `far` in world units.
-    /// Outside the map it is lit (W78-8).
+    /// Outside the map it is lit (Williams 1978).
     ///
     /// White and casting; the map's up is +y, or +z where the light shines along y.
     ///
@@ -43,7 +43,7 @@ impl Light {
     }
 
     /// A spot light: nothing leaves it outside a cone of `full_angle_deg` degrees (below 180), whose edge touches the sides of
-    /// a square map. Outside the cone and behind the light all is dark (Woo 1992; W92, C-10).
+    /// a square map. Outside the cone and behind the light all is dark (Woo 1992).
     ///
     /// White and casting; the map's up is +y, or +z where the light shines along y.
     ///
@@ -64,7 +64,7 @@ impl Light {
     }
 
     /// A point light that shines everywhere but whose one map sees only a frustum of `fov_deg` degrees toward `target`. What
-    /// lies outside the map is lit (R87-16, C-10).
+    /// lies outside the map is lit (Reeves 1987).
     ///
     /// White and casting; the map's up is +y, or +z where the light shines along y.
     ///
@@ -95,7 +95,7 @@ impl Light {
         self
     }
 
-    /// The same light shining by a tree; it casts when the tree has a shadow node (R87-18).
+    /// The same light shining by a tree; it casts when the tree has a shadow node (Reeves 1987).
     #[must_use]
     pub fn with_tree(mut self, tree: Tree) -> Self {
         self.casts = tree.recipe().is_some();

@@ -1,6 +1,6 @@
 use glam::{DMat4, DVec3, DVec4, Vec3};
 
-/// A bicubic Bézier patch by its 16 control points (W78-23). Other bases are converted: [`Patch::from_basis`].
+/// A bicubic Bézier patch by its 16 control points (Williams 1978). Other bases are converted: [`Patch::from_basis`].
 ///
 /// The outside is where S_u × S_v points: with u to the right and v up, the side that faces the reader.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,7 +9,7 @@ pub struct Patch {
     pub control: [[Vec3; 4]; 4],
 }
 
-/// What 16 control points mean: the matrix M of S(u, v) = U·M·G·Mᵀ·V, with U = (u³, u², u, 1) (W78-23). The rows of G run along u,
+/// What 16 control points mean: the matrix M of S(u, v) = U·M·G·Mᵀ·V, with U = (u³, u², u, 1) (Williams 1978). The rows of G run along u,
 /// those of `control` along v: `G[i][j]` is `control[j][i]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Basis {

@@ -10,7 +10,7 @@ use crate::Light;
 pub enum Shape {
     /// Fixed triangles.
     Mesh(Mesh),
-    /// Patches, diced anew for each view (Williams 1978; W78-23).
+    /// Patches, diced anew for each view (Williams 1978).
     Patches(Vec<Patch>),
 }
 
@@ -77,14 +77,14 @@ pub struct Object {
     pub shape: Shape,
     /// Surface.
     pub material: Material,
-    /// Drawn in pass 1 (Reeves 1987 leaves the ground out; R87-5).
+    /// Drawn in pass 1 (Reeves 1987 leaves the ground out).
     pub casts: bool,
     /// Can be shadowed.
     pub receives: bool,
     /// True for the closed boundary of a solid, false for an open, two-sided surface. Where the [cover](Self::cover) has holes, or
     /// blends, it counts as false: see [`Object::is_solid`].
     pub solid: bool,
-    /// Share of the light that passes one surface of it, linear RGB in 0..=1: 0 is opaque. Only deep maps and rays know of it;
+    /// Fraction of the light that passes one surface of it, linear RGB in 0..=1: 0 is opaque. Only deep maps and rays know of it;
     /// a closed solid has two surfaces in the way. Where the [cover](Self::cover) blends it is what passes at an alpha of 1.
     pub passes: Vec3,
     /// What its texture adds to [`Object::material`] and [`Object::passes`]: colour, holes, and alpha that lets light pass.
@@ -193,7 +193,7 @@ impl Scene {
         object.shape.hull().map(move |at| origin + at.as_dvec3())
     }
 
-    /// Ids of the casting objects that are not wholly inside what a light sees; their shadows may be cut off (W78-8).
+    /// Ids of the casting objects that are not wholly inside what a light sees; their shadows may be cut off (Williams 1978).
     ///
     /// Patches are judged by their control points, so that one may be named that just fits.
     pub fn casters_outside(&self, light: &View) -> Vec<u32> {

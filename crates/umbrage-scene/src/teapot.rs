@@ -9,7 +9,7 @@ const SIDES: usize = 4;
 /// As published z is up and the pot stands on z = 0, its spout along +x; it is 3.15 units high, its body 2 in radius. In order: 4 patches
 /// of the rim, 8 of the body, 4 each of handle and spout, 8 of the lid, 4 of the bottom.
 ///
-/// It is no solid. Body, rim and bottom hold together but end in the rim's inner circle at z = 2.4; the lid ends in a
+/// It is not a solid. Body, rim and bottom hold together but end in the rim's inner circle at z = 2.4; the lid ends in a
 /// narrower circle at the same height; handle and spout pass through the wall and end inside the body and at the mouth.
 /// So both sides can be seen and lit: it belongs into an object with `solid: false`.
 pub fn utah_teapot() -> Vec<Patch> {

@@ -200,7 +200,7 @@ fn whole(place: DVec2) -> [i64; 2] {
     place.to_array().map(|axis| axis as i64)
 }
 
-/// From a to b. Where both are the same it is what they are, to the bit: an alpha test may ask for just that.
+/// From a to b. Where both are the same it is what they are, to the bit: an alpha test may compare with just that.
 fn between(a: Vec4, b: Vec4, part: f32) -> Vec4 {
     a + (b - a) * part
 }

@@ -1,4 +1,4 @@
-//! Light trees: what a light sends to a point, as an expression (Reeves, Salesin & Cook 1987; R87-18).
+//! Light trees: what a light sends to a point, as an expression (Reeves, Salesin & Cook 1987).
 //!
 //! The same nodes stand in two forms. A [`Tree`] is data, which a scene file can hold and which is walked each time. The node types
 //! themselves, such as [`Cone`], combine by [`Product`], [`Sum`] and [`Mix`] into one type that the compiler inlines. Both
@@ -168,7 +168,7 @@ pub enum Tree {
     Cone(Cone),
     /// See [`Distribution`].
     Distribution(Distribution),
-    /// The light's shadow, by a recipe of its own (R87-18: its own samples, softness and bias); see [`Passing`] for the value.
+    /// The light's shadow, by a recipe of its own (its own samples, softness and bias); see [`Passing`] for the value.
     Shadow {
         /// The algorithm and its parameters, as text; empty for whatever the picture uses. One light has one map and one recipe: the
         /// first that is met from the left counts.

@@ -16,7 +16,7 @@ pub fn fixtures_too_large(bytes: &[u64]) -> Option<String> {
     (sum > ALL_FIXTURES).then(|| format!("fixtures: {sum} bytes together are more than {ALL_FIXTURES}"))
 }
 
-/// Links of a Markdown page to files that are not there. `exists` is asked for each relative address.
+/// Links of a Markdown page to files that are not there. `exists` is called for each relative address.
 pub fn dead_links(file: &str, text: &str, exists: impl Fn(&str) -> bool) -> Vec<String> {
     let mut findings = Vec::new();
     for link in links(text) {

@@ -5,8 +5,11 @@
 
 mod arrows;
 mod files;
+mod ids;
 mod modules;
+mod packages;
 mod sources;
+mod words;
 
 use anyhow::Context as _;
 use std::path::{Path, PathBuf};
@@ -17,6 +20,8 @@ pub fn findings(root: &Path) -> anyhow::Result<Vec<String>> {
     walk(root, &mut paths)?;
     let mut findings = Vec::new();
     let mut fixtures = Vec::new();
+    let page = std::fs::read_to_string(root.join(ids::PAGE)).unwrap_or_default();
+    let explained = ids::explained(&page);
     for path in &paths {
         let name = relative(root, path);
         let length = path.metadata().with_context(|| name.clone())?.len();
@@ -26,18 +31,30 @@ pub fn findings(root: &Path) -> anyhow::Result<Vec<String>> {
         }
         let read = || std::fs::read_to_string(path).with_context(|| name.clone());
         if name.ends_with("/Cargo.toml") {
-            findings.extend(arrows::manifest(&name, &read()?));
+            let (folder, text) = (path.parent().unwrap_or(root), read()?);
+            findings.extend(arrows::manifest(&name, &text));
+            findings.extend(packages::manifest(&name, &text, |file| folder.join(file).exists()));
         } else if path.extension().is_some_and(|end| end == "rs") {
-            findings.extend(sources::source(&name, &read()?));
+            let text = read()?;
+            findings.extend(sources::source(&name, &text));
+            // This program's own tests make some up.
+            if !name.starts_with("xtask/") {
+                findings.extend(ids::cited(&name, &text, &explained));
+            }
+            // The list of words has them all.
+            if name != "xtask/src/tidy/words.rs" {
+                findings.extend(words::words(&name, &text));
+            }
             if name.ends_with("/src/lib.rs") || name.ends_with("/src/main.rs") {
                 findings.extend(modules::circles(&name, &|file| std::fs::read_to_string(root.join(file)).ok()));
             }
-        } else if name.ends_with("README.md") {
+        } else if path.extension().is_some_and(|end| end == "md") {
             let folder = path.parent().unwrap_or(root);
             findings.extend(files::dead_links(&name, &read()?, |link| folder.join(link).exists()));
         }
     }
     findings.extend(files::fixtures_too_large(&fixtures));
+    findings.extend(crate::api::findings(root, false)?);
     Ok(findings)
 }
 
@@ -77,7 +94,7 @@ mod tests {
         };
         put(
             "crates/umbrage-depth/Cargo.toml",
-            "[package]\nname = \"umbrage-depth\"\n[dependencies]\numbrage-raster = {}\n",
+            "[package]\nname = \"umbrage-depth\"\npublish = false\n[dependencies]\numbrage-raster = {}\n",
         );
         put("crates/umbrage-depth/src/lib.rs", "fn main() { dbg!(1); }");
         put("README.md", "[here](crates/umbrage-depth/src/lib.rs) [gone](crates/gone.rs)");

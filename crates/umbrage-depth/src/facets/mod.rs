@@ -57,7 +57,7 @@ impl FacetDepths {
         Self { decode: view.decode(), nearest: view.key(view.near()) as f32, view: *view }
     }
 
-    /// The depth that a texel with a facet on this plane stores; what is nearer than the near plane is at it (C-10).
+    /// The depth that a texel with a facet on this plane stores; what is nearer than the near plane is at it.
     #[inline(always)]
     pub fn depth(&self, texel: IVec2, plane: &Affine) -> f32 {
         let at = self.view.sampling().position(texel);

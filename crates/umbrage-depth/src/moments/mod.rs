@@ -1,4 +1,4 @@
-//! Maps whose depths are filtered before they are asked about.
+//! Maps whose depths are filtered before they are looked up.
 
 mod kind;
 mod pyramid;
@@ -16,7 +16,7 @@ use umbrage_plane::{TexelRect, View};
 /// A map with moments of its depths: means, over regions of any size, from which a filter concludes how much of a region is nearer than a
 /// receiver without looking at its texels.
 ///
-/// As a [`DepthMap`] it answers with the depths that it was made from, bit for bit. Beside them it holds up to four 32-bit floats a texel
+/// As a [`DepthMap`] it answers with the depths that it was made from, bit for bit. Beside them it holds up to four 32-bit floats per texel
 /// ([`Moments`]), which may be blurred, and levels of half the resolution each down to a single texel.
 ///
 /// ```

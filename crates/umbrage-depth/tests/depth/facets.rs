@@ -71,7 +71,7 @@ fn map(view: &View, fine: u32, slots: u32, seed: u64) -> FacetMap {
     FacetMap::from_tiles(*view, Stored::Second, fine, slots, tiles)
 }
 
-/// Everything that can be asked of a map, as bits.
+/// Everything that can be looked up of a map, as bits.
 fn looked_up(map: &FacetMap) -> Vec<u64> {
     let size = map.view().size().as_ivec2();
     let around = TexelRect::new(IVec2::splat(-2), size + 2);

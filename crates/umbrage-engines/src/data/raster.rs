@@ -10,7 +10,7 @@ const SLOPE: &str = "times the change of depth from texel to texel, the larger o
 const CONSTANT: &str = "units that are added to the depth of casters; negative where depth is reversed";
 
 /// What the clamps of all three interfaces do.
-const CLAMP: &str = "the most that the sum may be, or the least where it is negative; 0 is no clamp";
+const CLAMP: &str = "the most that the sum may be, or the least where it is negative; 0 means that there is no clamp";
 
 /// What holds for all three interfaces.
 const NOTE: &str = "A surface that rises along the map's diagonal has as little as 0.71 of the slope's part where the larger of a row's and a \

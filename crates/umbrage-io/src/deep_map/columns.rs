@@ -25,7 +25,7 @@ pub(super) enum Light {
 #[derive(Debug)]
 pub(super) struct Columns {
     pub(super) depth: Column,
-    /// The depth at which a sample ends, where it is no surface.
+    /// The depth at which a sample ends, where it is not a surface.
     pub(super) back: Option<Column>,
     pub(super) light: Light,
     /// Bytes of one sample of all channels.
@@ -88,7 +88,7 @@ impl Column {
         &self.name
     }
 
-    /// True when a sample read from here may have been written as `value`; halves are other makers' and not asked.
+    /// True when a sample read from here may have been written as `value`; halves are other makers' and not checked.
     pub(super) fn holds(&self, sample: f32, value: f32) -> bool {
         self.half || sample == value
     }

@@ -1,4 +1,4 @@
-//! Deep maps as deep EXR files (B06-11, EXT-3).
+//! Deep maps as deep EXR files (Burley 2006).
 //!
 //! One part, `deepscanline`, ZIPS, display and data window and the attributes of the view as in flat maps. A sample is a surface; those of a
 //! texel ascend in depth. All channels are 32-bit floats:
@@ -53,11 +53,11 @@ pub fn write_deep_map(path: &Path, map: &DeepMap) -> Result<(), IoError> {
     write_bytes(path, &encode_deep_map(map).map_err(|fault| fault.in_file(path))?)
 }
 
-/// Reads a deep map: view, bound and steps equal those that were written bit for bit (B06-11).
+/// Reads a deep map: view, bound and steps equal those that were written bit for bit (Burley 2006).
 ///
 /// Files of other makers are taken when one of their parts is `deepscanline` with a channel `Z` of 32-bit floats, `A` or `AR`, `AG`, `AB`,
 /// and has the four attributes of a flat map. Their samples come in any order; those at one depth are one surface. Depths of 1e30 and more
-/// count as no surface (C-5). A sample whose `ZBack` lies behind its `Z` is a volume, which lets (1 − A)^f of the light through at the
+/// count as no surface. A sample whose `ZBack` lies behind its `Z` is a volume, which lets (1 − A)^f of the light through at the
 /// fraction f of its thickness, as OpenEXR has it; volumes that overlap dim one another. A map keeps steps: those of a volume are never
 /// farther from that than 2⁻¹¹. The bound of a map is the larger one of this, if it has volumes, and its attribute `epsilon`, 0 without one.
 ///
@@ -82,7 +82,7 @@ pub fn read_deep_map_within(path: &Path, most_steps: u64) -> Result<DeepMap, IoE
 /// As [`read_deep_map_within`], from bytes.
 ///
 /// # Errors
-/// A [`Fault`], when the bytes are no deep map of that size.
+/// A [`Fault`], when the bytes are not a deep map of that size.
 pub fn decode_deep_map(bytes: &[u8], most_steps: u64) -> Result<DeepMap, Fault> {
     let parts = Parts::read(bytes, bytes.len() as u64, u64::MAX)?;
     let map = only(&parts)?;

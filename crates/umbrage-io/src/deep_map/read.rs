@@ -15,7 +15,7 @@ use umbrage_depth::{DeepMap, Step};
 /// Bytes before a row's packed table: its number and three lengths.
 const ROW_HEAD: usize = 28;
 
-/// Depths from here on mean that no surface was seen (C-5).
+/// Depths from here on mean that no surface was seen.
 const NO_SURFACE: f32 = 1e30;
 
 /// The map of a part, and the cone of the light around which it is one of several.
@@ -64,7 +64,7 @@ pub(crate) fn deep(
 /// One part of deep scan lines, stored without loss.
 fn check_form(header: &Header) -> Result<(), Fault> {
     if !header.deep {
-        return Err(Fault::new("type", "flat", "a deep map has several depths a texel"));
+        return Err(Fault::new("type", "flat", "a deep map has several depths per texel"));
     }
     if header.blocks != BlockDescription::ScanLines {
         return Err(Fault::new("type", "deeptile", "deep maps are read from deepscanline only"));

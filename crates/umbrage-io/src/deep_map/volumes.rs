@@ -6,7 +6,7 @@ use umbrage_depth::Step;
 /// How far the steps of a volume may stand from what it lets through, in any channel and at any depth.
 pub(super) const VOLUME_BOUND: f32 = 1.0 / 2048.0;
 
-/// What lets part of the light through between two depths, evenly; at one depth a surface.
+/// What lets part of the light through between two depths, evenly; where the two are one, a surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Volume {
     /// Where it begins.

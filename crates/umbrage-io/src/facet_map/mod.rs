@@ -104,7 +104,7 @@ pub fn read_facet_map_within(path: &Path, most_texels: u64) -> Result<FacetMap, 
 /// As [`read_facet_map_within`], from bytes.
 ///
 /// # Errors
-/// A [`Fault`], when the bytes are no map of facets of that size.
+/// A [`Fault`], when the bytes are not a map of facets of that size.
 pub fn decode_facet_map(bytes: &[u8], most_texels: u64) -> Result<FacetMap, Fault> {
     let parts = Parts::read(bytes, bytes.len() as u64, u64::MAX)?;
     let found = only(&parts)?;

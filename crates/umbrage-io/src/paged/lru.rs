@@ -1,12 +1,12 @@
 /// No slot.
 const NONE: u32 = u32::MAX;
 
-/// Values of the keys asked for last; when all slots are taken, the value of the key that was not asked for the longest gives way.
+/// Values of the keys that were looked up last; when all slots are taken, the value of the key whose look-up was longest ago gives way.
 #[derive(Debug)]
 pub(super) struct Lru<T> {
     /// The slot of each key.
     slot_of: Vec<u32>,
-    /// Linked in a ring by when they were asked for.
+    /// Linked in a ring by when they were looked up.
     slots: Vec<Slot<T>>,
     newest: u32,
     most: usize,

@@ -1,4 +1,4 @@
-//! Maps whose tiles stay in their file until they are looked at (Reeves 1987, §3.3; R87-20).
+//! Maps whose tiles stay in their file until they are looked at (Reeves 1987, §3.3).
 
 mod lru;
 mod pager;
@@ -13,15 +13,15 @@ use std::sync::{Arc, Weak};
 use umbrage_depth::{DepthMap, Stored};
 use umbrage_plane::{DepthRange, TexelRect, View, floor_texel};
 
-/// A shadow map of which only the tiles looked at last are in memory (R87-20): pages of the file's own tiles, 64×64 texels and
+/// A shadow map of which only the tiles looked at last are in memory (Reeves 1987): pages of the file's own tiles, 64×64 texels and
 /// 16 KiB in files of ours, the least recently used giving way.
 ///
 /// It answers as the [`Raw`](umbrage_depth::Raw) map of [`read_shadow_map`](crate::read_shadow_map) does, bit for bit, whatever
 /// the number of pages and threads. Texels outside the file's data window are +∞ and need no page. Memory: the pages, one more for
-/// each thread that looks (its last one, kept until the thread looks at another), 12 bytes a tile for finding them, the header.
+/// each thread that looks (its last one, kept until the thread looks at another), 12 bytes per tile for finding them, the header.
 ///
-/// A look-up cannot fail, but a file can: the first tile that cannot be read is told by [`PagedHandle::error`]. From then on nothing is
-/// read and every look-up answers +∞, so that whoever opened the map asks once per bucket and throws the picture away.
+/// A look-up cannot fail, but a file can: the first tile that cannot be read is reported by [`PagedHandle::error`]. From then on nothing is
+/// read and every look-up answers +∞, so that whoever opened the map checks once per bucket and throws the picture away.
 ///
 /// What is checked: at open all that [`read_shadow_map`](crate::read_shadow_map) checks of header and offset table, and all that it
 /// checks of a tile when that tile is read. Not the digest: it is over the whole map, and only reading the whole map can tell that
@@ -65,7 +65,7 @@ impl Paged {
     ///
     /// # Errors
     /// [`IoError`]: one line with the file, the field and its value, when `pages` is 0, the system refuses, header or offset table are
-    /// damaged or hostile, or the file is no tiled shadow map.
+    /// damaged or hostile, or the file is not a tiled shadow map.
     pub fn open(path: &Path, pages: usize) -> Result<(Self, PagedHandle), IoError> {
         let (pager, view, stored) = Pager::open(path, pages)?;
         let pager = Arc::new(pager);
@@ -73,7 +73,7 @@ impl Paged {
     }
 
     /// The depths of at most 32 texels; +∞ for those outside `within`. Those of one tile are answered together, so that a footprint
-    /// across tiles asks for each of them once.
+    /// across tiles fetches each of them once.
     fn depths<const N: usize>(&self, within: TexelRect, texels: [IVec2; N]) -> [f32; N] {
         const { assert!(N <= 32, "one bit a texel") };
         let mut depths = [f32::INFINITY; N];

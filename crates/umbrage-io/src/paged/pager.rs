@@ -15,7 +15,7 @@ use umbrage_plane::{TexelRect, View};
 /// Most tiles of a file: their table and directory take 12 bytes each.
 const MOST_TILES: u64 = 1 << 22;
 
-/// Values from here on mean that no surface was seen (C-5).
+/// Values from here on mean that no surface was seen.
 const NO_SURFACE: f32 = 1e30;
 
 /// A tile's depths, row by row, once they are read; empty when they could not be.

@@ -6,7 +6,7 @@ use umbrage_plane::{Kind, Projection, View};
 /// not depend on where the light stands.
 const SLACK: f64 = 1e-3;
 
-/// By what share of themselves the shifts in the two matrices may disagree: four roundings to f32 each. Far from the world's
+/// By what fraction of themselves the shifts in the two matrices may disagree: four roundings to f32 each. Far from the world's
 /// origin that is many world units.
 const ROUNDINGS: f64 = 1.0 / 2_097_152.0;
 

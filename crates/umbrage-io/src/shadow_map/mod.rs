@@ -1,4 +1,4 @@
-//! Depth maps as EXR files (R87-4).
+//! Depth maps as EXR files (Reeves 1987).
 //!
 //! One part, tiled 64 × 64, ZIP, one channel `Z` of 32-bit floats, one level. The display window is the map, the data
 //! window the box around its finite depths; texels outside it are +∞. Attributes: `worldToCamera` (left-handed, +z ahead, as
@@ -52,7 +52,7 @@ pub fn encode_shadow_map(map: &impl DepthMap) -> Result<Vec<u8>, Fault> {
     encode(map)
 }
 
-/// Writes a map's file, as a whole or not at all (R87-4); the depths alone, as [`encode_shadow_map`] does.
+/// Writes a map's file, as a whole or not at all (Reeves 1987); the depths alone, as [`encode_shadow_map`] does.
 ///
 /// # Errors
 /// [`IoError`], when the system refuses.
@@ -60,8 +60,7 @@ pub fn write_shadow_map(path: &Path, map: &impl DepthMap) -> Result<(), IoError>
     write_bytes(path, &encode_shadow_map(map).map_err(|fault| fault.in_file(path))?)
 }
 
-/// Reads a map: depths, view and stored surface equal those that were written bit for bit (R87-4). Depths of 1e30 and more count as +∞
-/// (C-5).
+/// Reads a map: depths, view and stored surface equal those that were written bit for bit (Reeves 1987). Depths of 1e30 and more count as +∞.
 ///
 /// The file of a map of facets is taken as the depths it holds. Files of other makers are taken when one of their parts has a channel `Z`, or
 /// one that ends in `.Z`, of floats of 16 or 32 bits, stored without loss, and says where the light stands: `worldToCamera` (or `worldtocamera`, `Nl`), `worldToNDC` (or `worldtoscreen`, `NP`; −1 to 1 with y up is understood), and `near` and `far`, if
@@ -89,7 +88,7 @@ pub fn read_shadow_map_within(path: &Path, most_texels: u64) -> Result<Raw, IoEr
 /// As [`read_shadow_map_within`], from bytes.
 ///
 /// # Errors
-/// A [`Fault`], when the bytes are no shadow map of that size.
+/// A [`Fault`], when the bytes are not a shadow map of that size.
 pub fn decode_shadow_map(bytes: &[u8], most_texels: u64) -> Result<Raw, Fault> {
     let parts = Parts::read(bytes, bytes.len() as u64, u64::MAX)?;
     let map = only(&parts)?;

@@ -23,7 +23,7 @@ pub(crate) struct Parts {
 }
 
 impl Parts {
-    /// From the start of a file of `length` bytes, of which nothing behind the offset tables is asked for.
+    /// From the start of a file of `length` bytes, of which nothing behind the offset tables is read.
     pub fn read(file: impl BufRead, length: u64, most_blocks: u64) -> Result<Self, Fault> {
         let most = length.min(MOST_HEADER_BYTES);
         let mut file = file.take(most);

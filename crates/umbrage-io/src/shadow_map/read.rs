@@ -74,7 +74,7 @@ pub(crate) fn flat<'a>(
 ) -> Result<Preface<'a>, Fault> {
     let header = parts.header(part);
     if header.deep {
-        return Err(Fault::new("type", "deep", "a shadow map has one depth a texel"));
+        return Err(Fault::new("type", "deep", "a shadow map has one depth per texel"));
     }
     let channel = Channel::of_depths(header, channel)?;
     // Our own maps are never packed with a loss, and would not be what was written.

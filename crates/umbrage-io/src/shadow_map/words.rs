@@ -85,7 +85,7 @@ impl<'a> WordPart<'a> {
                 [only] if only.name.as_slice() == NAME.as_bytes() => {
                     if only.sample_type != SampleType::U32 || only.sampling != Vec2(1, 1) {
                         let value = format!("{:?} {:?}", only.sample_type, only.sampling);
-                        return Err(Fault::new("channel", value, "not of 32-bit whole numbers, one a pixel"));
+                        return Err(Fault::new("channel", value, "not of 32-bit whole numbers, one per pixel"));
                     }
                 }
                 _ => {

@@ -91,7 +91,7 @@ pub(super) fn tiled(header: Header) -> Header {
     header.with_encoding(Compression::ZIP16, BlockDescription::Tiles(tiles), LineOrder::Increasing)
 }
 
-/// The smallest rectangle around the finite depths (R87-19); one texel, as EXR needs it, when there are none.
+/// The smallest rectangle around the finite depths (Reeves 1987); one texel, as EXR needs it, when there are none.
 pub(crate) fn stored_window(map: &impl DepthMap) -> TexelRect {
     let whole = TexelRect::of_size(map.view().size());
     let side = TILE as i32;
@@ -104,7 +104,7 @@ pub(crate) fn stored_window(map: &impl DepthMap) -> TexelRect {
     if window.is_empty() { one(IVec2::ZERO) } else { window }
 }
 
-/// A channel of floats, one a texel or deep.
+/// A channel of floats, one per texel or deep.
 fn channel(name: &str) -> ChannelDescription {
     ChannelDescription {
         name: Text::from(name),

@@ -184,10 +184,10 @@ fn other_tools_find_what_the_convention_promises() {
     assert!(attributes.world_to_camera.is_some() && attributes.world_to_normalized_device.is_some());
     // Neither reader takes the other's file.
     let message = umbrage_io::decode_shadow_map(&bytes, DEFAULT_DEEP_BUDGET).expect_err("deep").to_string();
-    assert_eq!(message, "type is deep: a shadow map has one depth a texel");
+    assert_eq!(message, "type is deep: a shadow map has one depth per texel");
     let flat = umbrage_io::encode_shadow_map(&map).expect("the nearest surfaces");
     let message = decode_deep_map(&flat, DEFAULT_DEEP_BUDGET).expect_err("flat").to_string();
-    assert_eq!(message, "type is flat: a deep map has several depths a texel");
+    assert_eq!(message, "type is flat: a deep map has several depths per texel");
 }
 
 /// Samples of other makers stand in any order, several at one depth, some behind everything.

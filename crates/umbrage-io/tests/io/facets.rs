@@ -160,7 +160,7 @@ fn pages_and_plain_files_hold_the_depths() {
     assert!(refused.ends_with("plain.exr: parts is 1: a map of facets has them in a second one"), "{refused}");
     let bytes = std::fs::read(&path).expect("there");
     let refused = decode_deep_map(&bytes, DEFAULT_DEEP_BUDGET).expect_err("flat").to_string();
-    assert_eq!(refused, "type is flat: a deep map has several depths a texel");
+    assert_eq!(refused, "type is flat: a deep map has several depths per texel");
     let refused = read_facet_map_within(&path, 1000).expect_err("too large").to_string();
     assert!(refused.contains("displayWindow is 150 x 140: more than the allowed 1000 texels"), "{refused}");
     std::fs::write(&path, &bytes[..bytes.len() - 100]).expect("written");

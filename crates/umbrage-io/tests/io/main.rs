@@ -73,5 +73,5 @@ fn map(view: &View) -> Raw {
         let hole = index % 7 == 3 && size.x > 1;
         if boxed && !hole { 1.0 / 3.0 + (index as f32).sqrt() * 10.1 } else { f32::INFINITY }
     };
-    Raw::new(*view, (0..size.x * size.y).map(depth).collect()).expect("one depth a texel")
+    Raw::new(*view, (0..size.x * size.y).map(depth).collect()).expect("one depth per texel")
 }

@@ -173,7 +173,7 @@ fn full(name: &str) -> (PathBuf, Raw) {
     let path = folder(name).join("full.exr");
     let view = spot(UVec2::new(512, 384));
     let depths = (0..512 * 384).map(|index| 30.0 + (mix32(index) >> 20) as f32 / 64.0).collect();
-    let raw = Raw::new(view, depths).expect("one depth a texel");
+    let raw = Raw::new(view, depths).expect("one depth per texel");
     write_shadow_map(&path, &raw).expect("written");
     (path, raw)
 }

@@ -62,7 +62,7 @@ pub struct Seen<'a> {
     pub normal: &'a [Vec3],
     /// Its object.
     pub object: &'a [u32],
-    /// Share of the pixel that its object has, 0..=1.
+    /// Fraction of the pixel that its object has, 0..=1.
     pub share: &'a [f32],
     /// Mean cosine between geometric normal and light over the pixel.
     pub facing: &'a [f32],

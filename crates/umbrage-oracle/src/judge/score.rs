@@ -7,7 +7,7 @@ use crate::penumbra_width;
 use glam::DVec2;
 use umbrage_recipe::Recipe;
 
-/// Edges of the result that are farther from truth's than this are no edges of its shadow, pixels. It is also the largest displacement along
+/// Edges of the result that are farther from truth's than this are not edges of its shadow, pixels. It is also the largest displacement along
 /// each axis that is looked for.
 const NEAR: u32 = 8;
 /// Width in pixels of a hard shadow's edge as a picture shows it: a truth whose edges are no wider has no penumbra.
@@ -41,17 +41,17 @@ pub struct Score {
     pub judged: usize,
     /// Root mean square difference from truth, in units of shadow.
     pub rms: Option<f64>,
-    /// Share that is dark and should be lit.
+    /// Fraction of the judged pixels' area that is dark and should be lit.
     pub false_shadow: Option<f64>,
-    /// Share that is lit and should be dark.
+    /// Fraction of the judged pixels' area that is lit and should be dark.
     pub false_light: Option<f64>,
-    /// Share of acne.
+    /// The part of false shadow that is acne.
     pub acne: Option<f64>,
-    /// Share of detachment; 0 for a recipe without bias, `None` for a foreign image.
+    /// The part of false light that is detachment; 0 for a recipe without bias, `None` for a foreign image.
     pub detachment: Option<f64>,
     /// How far blockers are from the receivers that were detached from them; `None` where none was.
     pub detached: Option<Size>,
-    /// Share of leaks; `None` for a foreign image.
+    /// The part of false light that leaks; `None` for a foreign image.
     pub leak: Option<f64>,
     /// Standard deviation under several keys of randomness, mean over the judged pixels, in units of shadow; `None` with one key alone.
     pub noise: Option<f64>,

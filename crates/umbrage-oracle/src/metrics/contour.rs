@@ -43,7 +43,7 @@ pub fn contour(image: Grid, level: f32) -> Vec<Segment> {
 /// How far an image's ½-contour lies from truth's, pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
-    /// Root mean square distance, each piece weighing by its length (W78-F5).
+    /// Root mean square distance, each piece weighing by its length (Williams 1978).
     pub rms: f64,
     /// Mean signed distance; positive where the contour runs inside truth's shadow: the shadow is too small.
     pub mean: f64,

@@ -2,7 +2,7 @@ use super::Grid;
 use glam::{DMat2, DVec2, IVec2};
 use rayon::prelude::*;
 
-/// A direction in which an image changes less than this share of the one in which it changes most says nothing of how far it was moved.
+/// A direction in which an image changes less than this fraction of the one in which it changes most says nothing of how far it was moved.
 const FLAT: f64 = 1e-3;
 
 /// How far `image` is moved against `truth`, pixels, +x right and +y down: the translation d of least squared difference between the image

@@ -17,7 +17,7 @@ pub struct Band {
 }
 
 impl Band {
-    /// The strip about the edge from `a` to `b` (pixels), the shadow on the side that `dark` lies on; four bins a pixel.
+    /// The strip about the edge from `a` to `b` (pixels), the shadow on the side that `dark` lies on; four bins per pixel.
     pub fn between(a: DVec2, b: DVec2, dark: DVec2, half_width: f64) -> Self {
         let across = (b - a).perp().normalize_or(DVec2::X);
         let normal = if across.dot(dark - a) < 0.0 { -across } else { across };
@@ -62,7 +62,7 @@ impl Profile {
         (outer > 0).then(|| (mean(&self.points[..outer]), mean(&self.points[self.points.len() - outer..])))
     }
 
-    /// M1: the 10–90 % width in pixels, between the light and the dark level. `None` where those differ by less than
+    /// The 10–90 % width in pixels, between the light and the dark level. `None` where those differ by less than
     /// .05, or a crossing is missing.
     ///
     /// The crossings are the first ones met going outward from the midpoint.
@@ -74,7 +74,7 @@ impl Profile {
         Some(dark? - light?)
     }
 
-    /// M4: where the profile crosses half-way between its levels, pixels from the band's edge; the crossing nearest to
+    /// Where the profile crosses half-way between its levels, pixels from the band's edge; the crossing nearest to
     /// that edge. Positive: into the shadow.
     pub fn midpoint(&self) -> Option<f64> {
         let middle = self.middle()?;
@@ -82,7 +82,7 @@ impl Profile {
         crossing(&self.points[middle..middle + 2], 0.5 * (low + high))
     }
 
-    /// M4: how far this profile's midpoint lies from truth's, pixels. Positive: the shadow is smaller than it should be.
+    /// How far this profile's midpoint lies from truth's, pixels. Positive: the shadow is smaller than it should be.
     pub fn shift(&self, truth: &Self) -> Option<f64> {
         Some(self.midpoint()? - truth.midpoint()?)
     }
@@ -106,10 +106,10 @@ fn crossing(pair: &[(f64, f64)], level: f64) -> Option<f64> {
     (y0 <= level && y1 >= level && y1 > y0).then(|| x0 + (x1 - x0) * (level - y0) / (y1 - y0))
 }
 
-/// M7: the distance in pixels from `foot`, going along `toward` (need not be unit), to the first shadow ≥ ½.
+/// The distance in pixels from `foot`, going along `toward` (need not be unit), to the first shadow ≥ ½.
 ///
 /// Shadow between pixel centres is bilinear. 0 when `foot` itself is in shadow; `None` when the way leaves the image,
-/// or meets a NaN, before any. For world units ask the picture's positions at both ends.
+/// or meets a NaN, before any. For world units take the picture's positions at both ends.
 pub fn contact_gap(shadow: Grid, foot: DVec2, toward: DVec2) -> Option<f64> {
     const STEP: f64 = 0.125;
     let direction = toward.try_normalize()?;

@@ -5,7 +5,7 @@ pub struct Fit {
     pub slope: f64,
     /// y at x = 0.
     pub intercept: f64,
-    /// Share of y's variance that the line explains, 0..1; 1 when y does not vary.
+    /// Fraction of y's variance that the line explains, 0..1; 1 when y does not vary.
     pub r2: f64,
 }
 

@@ -1,14 +1,14 @@
 use super::Grid;
 use glam::DVec2;
 
-/// Pixels on which shadow would be false (M2): truth is 0, the cosine to the light exceeds `min_facing` (§9 uses .05),
+/// Pixels on which shadow would be false: truth is 0, the cosine to the light exceeds `min_facing` (the figures use .05),
 /// and nothing darker than 0 in truth lies within `border` pixels, the filter's width.
 pub fn lit_mask(truth: Grid, facing: &[f32], border: usize, min_facing: f32) -> Vec<bool> {
     settled(truth, facing, border, min_facing, |truth| truth == 0.0)
 }
 
-/// Pixels on which light would leak (M8): truth is 1, the surface faces the light (cosine above `min_facing`), and
-/// nothing lighter than 1 in truth lies within `border` pixels, 0 for all of them (M8).
+/// Pixels on which light would leak: truth is 1, the surface faces the light (cosine above `min_facing`), and
+/// nothing lighter than 1 in truth lies within `border` pixels, 0 for all of them.
 ///
 /// Background counts as lit surroundings: pictures hold 0 there.
 pub fn dark_mask(truth: Grid, facing: &[f32], border: usize, min_facing: f32) -> Vec<bool> {
@@ -56,7 +56,7 @@ pub fn penumbra_mask(reference: &[f32]) -> Vec<bool> {
 }
 
 /// Pixels within `pixels` of truth's edge: of a pair of neighbours on different sides of ½. With [`rms`](super::rms)
-/// the jaggedness of R87-F6, R87-float, R87-F10 and R87-pass1.
+/// by which the figures after Reeves 1987 measure jaggedness.
 pub fn edge_mask(truth: Grid, pixels: usize) -> Vec<bool> {
     let mut at_edge = vec![false; truth.values.len()];
     let (width, height) = (truth.width, truth.height());
@@ -79,7 +79,7 @@ pub fn both(a: &[bool], b: &[bool]) -> Vec<bool> {
     a.iter().zip(b).map(|(&a, &b)| a && b).collect()
 }
 
-/// The share of `of`'s pixels that are in `mask` too (M9). `None` when `of` is empty.
+/// The fraction of `of`'s pixels that are in `mask` too. `None` when `of` is empty.
 pub fn share(mask: &[bool], of: &[bool]) -> Option<f64> {
     let all = count(of);
     (all > 0).then(|| count(&both(mask, of)) as f64 / all as f64)

@@ -1,4 +1,4 @@
-//! Measures of shadow images (spec §9, M1..M9), each a pure function of numbers.
+//! Measures of shadow images beside the truth, each a pure function of numbers.
 //!
 //! Images are [`Grid`]s of shadow, 1 dark, rows from the top; masks are `&[bool]` of the same layout. Lengths are
 //! pixels, and pixel (i, j) has its centre at (i + ½, j + ½). What cannot be measured (an empty mask, no edge) is
@@ -6,16 +6,16 @@
 //!
 //! | measure | function |
 //! |---|---|
-//! | M1 edge width | [`profile`], [`Profile::width`] |
-//! | M2 false shadow | [`lit_mask`], [`false_shadow`] |
-//! | M3 regularity | [`spectrum`] |
-//! | M4 midpoint shift | [`Profile::midpoint`], [`Profile::shift`] |
-//! | M5 levels | [`distinct_levels`], [`levels_per_region`] |
-//! | M6 noise | [`penumbra_mask`], [`rms`] |
-//! | M7 contact gap | [`contact_gap`] |
-//! | M8 leak | [`dark_mask`], [`leak`] |
+//! | edge width | [`profile`], [`Profile::width`] |
+//! | false shadow | [`lit_mask`], [`false_shadow`] |
+//! | regularity | [`spectrum`] |
+//! | midpoint shift | [`Profile::midpoint`], [`Profile::shift`] |
+//! | levels | [`distinct_levels`], [`levels_per_region`] |
+//! | noise | [`penumbra_mask`], [`rms`] |
+//! | contact gap | [`contact_gap`] |
+//! | leak | [`dark_mask`], [`leak`] |
 //! | where second depth is judged | [`silhouette_distance`] |
-//! | M9 share of pixels | [`share`] |
+//! | fraction of pixels | [`share`] |
 //! | how far a shadow is moved | [`displacement`] |
 
 mod contour;
@@ -39,7 +39,7 @@ pub use silhouette::silhouette_distance;
 pub use spectrum::{Spectrum, spectrum};
 pub use statistics::{distinct_levels, false_shadow, leak, levels_per_region, lone_pixels, mean, rms};
 
-/// An image of one number a pixel, rows from the top.
+/// An image of one number per pixel, rows from the top.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid<'a> {
     /// The pixels. What does not fill a last row is ignored.

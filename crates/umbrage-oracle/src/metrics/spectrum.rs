@@ -1,7 +1,7 @@
 use super::Grid;
 use std::f64::consts::PI;
 
-/// How regular an image's deviations from its mean are (M3).
+/// How regular an image's deviations from its mean are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spectrum {
     /// Largest magnitude of the discrete Fourier transform, the mean's own term left out.
@@ -16,14 +16,14 @@ impl Spectrum {
         if self.peak > 0.0 { self.peak / self.median } else { 0.0 }
     }
 
-    /// M3: the same of powers, the ratio's square. That is what the recorded figures of Williams' moiré are: hundreds and more,
+    /// The same of powers, the ratio's square. That is what the recorded figures of Williams' moiré are: hundreds and more,
     /// against about 10 to 25 for noise.
     pub fn power_ratio(&self) -> f64 {
         self.ratio() * self.ratio()
     }
 }
 
-/// M3: the spectrum of a window, mean removed, no taper. Each side is cut to the largest power of two that fits, from
+/// The spectrum of a window, mean removed, no taper. Each side is cut to the largest power of two that fits, from
 /// the upper left. A window of fewer than two pixels, a uniform one or one with NaN has peak and median 0.
 pub fn spectrum(window: Grid) -> Spectrum {
     let (width, height) = (power_of_two(window.width), power_of_two(window.height()));

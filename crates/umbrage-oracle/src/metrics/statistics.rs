@@ -5,17 +5,17 @@ pub fn mean(values: &[f32], mask: &[bool]) -> Option<f64> {
     mean_of(values.iter().zip(mask).filter(|(_, inside)| **inside).map(|(value, _)| f64::from(*value)))
 }
 
-/// M2: the mean shadow, 0..1, where truth says lit; the mask is [`lit_mask`](super::lit_mask)'s.
+/// The mean shadow, 0..1, where truth says lit; the mask is [`lit_mask`](super::lit_mask)'s.
 pub fn false_shadow(shadow: &[f32], lit: &[bool]) -> Option<f64> {
     mean(shadow, lit)
 }
 
-/// M8: the mean light, 0..1, where truth says shadowed; the mask is [`dark_mask`](super::dark_mask)'s.
+/// The mean light, 0..1, where truth says shadowed; the mask is [`dark_mask`](super::dark_mask)'s.
 pub fn leak(shadow: &[f32], dark: &[bool]) -> Option<f64> {
     mean(shadow, dark).map(|shadow| 1.0 - shadow)
 }
 
-/// M6: root mean square difference of two images over a mask, in units of shadow. `None` when the mask is empty.
+/// Root mean square difference of two images over a mask, in units of shadow. `None` when the mask is empty.
 pub fn rms(values: &[f32], reference: &[f32], mask: &[bool]) -> Option<f64> {
     let differences = values.iter().zip(reference).zip(mask).filter(|(_, inside)| **inside);
     mean_of(differences.map(|((a, b), _)| (f64::from(*a) - f64::from(*b)).powi(2))).map(f64::sqrt)
@@ -26,7 +26,7 @@ fn mean_of(values: impl Iterator<Item = f64>) -> Option<f64> {
     (count > 0).then(|| sum / count as f64)
 }
 
-/// M5: how many different numbers an image holds inside a mask. All NaNs are one, and −0 is 0.
+/// How many different numbers an image holds inside a mask. All NaNs are one, and −0 is 0.
 pub fn distinct_levels(values: &[f32], mask: &[bool]) -> usize {
     let inside = values.iter().zip(mask).filter(|(_, inside)| **inside).map(|(value, _)| *value);
     let mut levels: Vec<u32> =
@@ -37,7 +37,7 @@ pub fn distinct_levels(values: &[f32], mask: &[bool]) -> usize {
 }
 
 /// The largest number of levels that a single region's sampling can have: one more than the largest denominator n ≤
-/// `most` needed to write the values as k/n (a region of ns·nt samples has ns·nt + 1 levels; R87-F6b, R87-F7).
+/// `most` needed to write the values as k/n (a region of ns·nt samples has ns·nt + 1 levels).
 ///
 /// Fractions in lowest terms: .5 from 16 samples needs 2. `None` when a value is no such fraction (within 1e−6), or
 /// there is none.
@@ -55,7 +55,7 @@ pub fn levels_per_region(values: &[f32], most: u32) -> Option<u32> {
     largest.map(|n| n + 1)
 }
 
-/// How many pixels stand alone: on the other side of ½ than all their neighbours, diagonal ones included (W78-F5).
+/// How many pixels stand alone: on the other side of ½ than all their neighbours, diagonal ones included (Williams 1978).
 ///
 /// Lone dark pixels on light and lone light ones on dark both count. Only pixels of the mask can; their neighbours are
 /// looked at wherever they lie.

@@ -1,4 +1,4 @@
-//! §9 M1..M9 on images whose answer is known.
+//! The measures M1 to M9 on images whose answer is known.
 use glam::DVec2;
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};

@@ -1,4 +1,4 @@
-//! §9's mask for second depth: how far pixels lie from silhouettes in the light's view.
+//! The mask for second depth: how far pixels lie from silhouettes in the light's view.
 use glam::{DVec3, UVec2, Vec3};
 use umbrage_oracle::metrics::silhouette_distance;
 use umbrage_oracle::{Geometry, RayCast};

@@ -1,4 +1,4 @@
-//! Meshes: nothing twice, nothing missed (spec X-2).
+//! Meshes: nothing twice, nothing missed.
 
 use crate::oracle::{Camera, bins, fragments, solid, texel_view};
 use crate::scenes::{ball, cuboid, places, samplings, turns};

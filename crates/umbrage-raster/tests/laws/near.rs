@@ -1,4 +1,4 @@
-//! Geometry that reaches the eye and beyond (spec C-10).
+//! Geometry that reaches the eye and beyond (C-10).
 
 use crate::oracle::{Camera, bins, fragments, meet, solid};
 use crate::scenes::{cuboid, places, samplings, turns};

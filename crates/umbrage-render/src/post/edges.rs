@@ -1,11 +1,11 @@
 use glam::{IVec2, UVec2, Vec2};
 
-/// Sub-scanlines and sub-columns a pixel when smoothed contours are drawn.
+/// Sub-scanlines and sub-columns per pixel when smoothed contours are drawn.
 const SUB: usize = 8;
 
-/// Takes the staircase out of a binary shadow image (W78-16): its contours are traced as closed chains of cracks between
+/// Takes the staircase out of a binary shadow image (Williams 1978): its contours are traced as closed chains of cracks between
 /// pixels, each vertex becomes the mean of its 2·`window` + 1 neighbours along the chain, and the smoothed polygons are
-/// drawn again with 8 × 8 samples a pixel.
+/// drawn again with 8 × 8 samples per pixel.
 ///
 /// A pixel counts as shadow above ½. Vertices on the image's border stay where they are. `window` 0 only redraws. The
 /// paper leaves the filter to a citation on line drawings; this is our reading of it.
@@ -103,7 +103,7 @@ fn cross(from: Vec2, to: Vec2, crossings: &mut [Vec<f32>]) {
     }
 }
 
-/// Fills between pairs of crossings and counts samples a pixel.
+/// Fills between pairs of crossings and counts samples per pixel.
 fn fill(size: UVec2, crossings: &mut [Vec<f32>]) -> Vec<f32> {
     let width = size.x as usize;
     let mut image = vec![0.0; width * size.y as usize];

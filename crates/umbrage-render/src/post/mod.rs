@@ -1,5 +1,5 @@
 //! Williams' post-process: shadows put into a finished picture, and the stages that work on the shadow image
-//! (Williams 1978; W78-5, W78-14..W78-19). The order is fixed: [`shadow_image`] (transform, dither, look up, compare),
+//! (Williams 1978). The order is fixed: [`shadow_image`] (transform, dither, look up, compare),
 //! [`dequantise_edges`], [`low_pass`], [`darken`].
 
 mod edges;
@@ -20,15 +20,15 @@ pub struct ShadowImage {
     pub size: UVec2,
     /// 1 in shadow, 0 lit, 0 where nothing is seen.
     pub shadow: Vec<f32>,
-    /// Points put through the matrix: the pixels with a surface, whatever the scene's complexity (W78-5).
+    /// Points put through the matrix: the pixels with a surface, whatever the scene's complexity (Williams 1978).
     pub transforms: u64,
 }
 
-/// Transforms each visible pixel of a finished picture into the light's view by one matrix and tests it there (W78-3, W78-5).
+/// Transforms each visible pixel of a finished picture into the light's view by one matrix and tests it there (Williams 1978).
 ///
-/// `zeta` is the picture's depth along the observer's axis, +∞ where nothing is seen: such pixels are skipped (T-15).
+/// `zeta` is the picture's depth along the observer's axis, +∞ where nothing is seen: such pixels are skipped.
 /// `z_bits` (8 to 24, others as the nearest of these) rounds it to an integer depth first, which is the extra quantisation of this mode. Each pixel is taken to
-/// be at its centre, wherever its surface point was: a renderer that snaps points to pixels adds its error here (W78-7).
+/// be at its centre, wherever its surface point was: a renderer that snaps points to pixels adds its error here.
 pub fn shadow_image<M: DepthMap>(
     zeta: &[f32],
     observer: &View,
@@ -87,7 +87,7 @@ fn test<M: DepthMap>(light: &ShadowMap<Williams, M>, screen: DVec3, key: Key) ->
     }
 }
 
-/// Separable binomial low-pass \[1 2 1\]/4, repeated; works on a shadow image, never on depth (W78-17). Edges repeat outward.
+/// Separable binomial low-pass \[1 2 1\]/4, repeated; works on a shadow image, never on depth (Williams 1978). Edges repeat outward.
 pub fn low_pass(size: UVec2, image: &[f32], repeats: u32) -> Vec<f32> {
     let (width, height) = (size.x as usize, size.y as usize);
     let mut image = image.to_vec();
@@ -110,9 +110,9 @@ pub fn low_pass(size: UVec2, image: &[f32], repeats: u32) -> Vec<f32> {
     image
 }
 
-/// Applies a shadow image to a finished picture: colour · (1 − density · shadow) (W78-19).
+/// Applies a shadow image to a finished picture: colour · (1 − density · shadow) (Williams 1978).
 ///
-/// Highlights are dimmed, not removed: the known flaw of this mode. `density` is 1 less the ambient share; 1 gives black shadows.
+/// Highlights are dimmed, not removed: the known flaw of this mode. `density` is 1 less the ambient fraction; 1 gives black shadows.
 pub fn darken(colour: &[Vec3], shadow: &[f32], density: f32) -> Vec<Vec3> {
     colour.iter().zip(shadow).map(|(colour, shadow)| *colour * (1.0 - density * shadow)).collect()
 }

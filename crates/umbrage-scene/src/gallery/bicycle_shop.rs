@@ -5,7 +5,7 @@ use crate::{Light, Material, Mesh, Object, Scene};
 use glam::{DMat4, DVec3, UVec2, Vec3};
 use umbrage_plane::View;
 
-/// A dim bicycle shop at night, after Reeves, Salesin & Cook 1987, Figure 14 (R87-F14): bicycles with all their spokes,
+/// A dim bicycle shop at night, after Reeves, Salesin & Cook 1987, Figure 14: bicycles with all their spokes,
 /// shelves, a bench and loose wheels that fill much of both maps.
 ///
 /// Seven lights, of which the first two cast, with maps of 1024 × 1024: a pendant over the middle (light 0) and the moon

@@ -6,8 +6,7 @@ use glam::{DVec3, UVec2, Vec3};
 /// Number of the last frame of [`bowling`]; the first is 0.
 pub const BOWLING_FRAMES: u32 = 24;
 
-/// A bowling ball rolls in and scatters the pins, after the film that Wang & Molnar 1994, Figure 15, is a still of
-/// (WM94-F15).
+/// A bowling ball rolls in and scatters the pins, after the film that Wang & Molnar 1994, Figure 15, is a still of.
 ///
 /// `frame` is 0..=[`BOWLING_FRAMES`]; later ones are the last. At 0 all pins stand and the ball rolls; it meets the
 /// head pin at 8. What does not move is the same, bit for bit, in all frames: the lane (object 0), whose top is y = 0,

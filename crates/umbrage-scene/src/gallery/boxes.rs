@@ -8,8 +8,8 @@ const GREY: Material = Material::matt(Vec3::new(0.54, 0.52, 0.48));
 const RED: Material = Material::plastic(Vec3::new(0.70, 0.14, 0.08));
 const BLUE: Material = Material::plastic(Vec3::new(0.12, 0.26, 0.66));
 
-/// SC-F: a box that stands on a floor and throws a long shadow, sharp where it begins and soft where it ends, after
-/// Burley 2006 (B06-I76).
+/// A box that stands on a floor and throws a long shadow, sharp where it begins and soft where it ends, after
+/// Burley 2006.
 ///
 /// The box (object 0) is 20 wide (x), 120 tall (y) and 80 deep (z), its foot about the origin; the floor (object 1) is
 /// a closed slab whose top is y = 0. Light 0 is 1000 away in direction −x, 40° above the horizon: the shadow runs
@@ -29,7 +29,7 @@ pub fn contact_box() -> Scene {
 }
 
 /// [`contact_box`] with a board (object 2) high above the end of the box's shadow, on the same side of the light: one
-/// search meets occluders at two depths there (B06-9).
+/// search meets occluders at two depths there (Burley 2006).
 ///
 /// # Panics
 /// Never: the views are constants.
@@ -42,7 +42,7 @@ pub fn overlapping_boxes() -> Scene {
 }
 
 /// Two boards with straight edges along z, their undersides 10 and 40 above one floor: filters of one width make both
-/// shadows equally soft, whatever the height (R87-nopen).
+/// shadows equally soft, whatever the height (Reeves 1987).
 ///
 /// Objects: the low board (0), the high board (1), the floor (2), a closed slab whose top is y = 0. Both boards end in
 /// the plane x = 5; light 0 is 400 straight above the origin, so that the shadows end on the floor at x = 5·400/(400 −
@@ -64,7 +64,7 @@ pub fn two_heights() -> Scene {
 
 /// One board with a straight edge along z, its underside 50 above a floor and light 0 400 straight above the origin:
 /// distances to occluder and receiver are 350 and 400 everywhere at the edge, so that an area light's penumbra is
-/// known (D-16).
+/// known.
 ///
 /// Objects: the board (0), which ends in the plane x = 0, and the floor (1), whose top is y = 0; the shadow ends at x
 /// = 0 too. Map and picture are 1024 × 1024.

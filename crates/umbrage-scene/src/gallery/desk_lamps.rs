@@ -7,7 +7,7 @@ use umbrage_plane::View;
 const BALL: f32 = 6.0;
 
 /// Two desk lamps and a ball on a wooden table, lit by both lamps and from overhead, after the film frame of Reeves,
-/// Salesin & Cook 1987, Figure 12 (R87-F12).
+/// Salesin & Cook 1987, Figure 12.
 ///
 /// Objects 0 to 2 are the table's boards in three tones, the ground that is left out of the maps: it receives but does not cast.
 /// Then come each lamp's frame, shade, lining and bulb (big 3 to 6, small 7 to 10), the ball (11) and its band (12).

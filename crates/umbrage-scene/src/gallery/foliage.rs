@@ -18,7 +18,7 @@ pub(super) struct Leaf {
     pub(super) length: f64,
     /// Half its greatest width, world units.
     pub(super) half_width: f64,
-    /// By which share of its length the tip hangs lower.
+    /// By which fraction of its length the tip hangs lower.
     pub(super) droop: f64,
 }
 

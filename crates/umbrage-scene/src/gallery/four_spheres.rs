@@ -2,10 +2,10 @@ use crate::{Light, Material, Mesh, Object, Scene};
 use glam::{DVec3, UVec2, Vec3};
 use umbrage_plane::{Kind, View};
 
-/// SC-A: four unit spheres after Williams 1978, Figures 1 to 6; objects 0 to 3, light 0.
+/// Four unit spheres after Williams 1978, Figures 1 to 6; objects 0 to 3, light 0.
 ///
 /// The observer looks along −z, the light is at infinity, 100° about the vertical to the left of the observer's bearing;
-/// both views are orthographic, 512 × 512, and store screen depth (W78-2). Seen from the light, sphere 0 covers part of
+/// both views are orthographic, 512 × 512, and store screen depth. Seen from the light, sphere 0 covers part of
 /// sphere 1; spheres 2 and 3 stand alone.
 ///
 /// # Panics

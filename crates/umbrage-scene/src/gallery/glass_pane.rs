@@ -12,7 +12,7 @@ const GLASS: [(&str, Vec3); 4] = [
 ];
 
 /// A window of coloured glass that stands on a white floor with the light behind it, and a yellow and a cyan pane
-/// before it: coloured shadows, and a green one where both lie over one another (B06-11).
+/// before it: coloured shadows, and a green one where both lie over one another (Burley 2006).
 ///
 /// Objects: the floor (0), the frame (1), a closed solid, and sheets: red, amber, green and blue panes in it, two by
 /// two (2 to 5), the yellow pane (6) and the cyan pane (7), whose shadows overlap each other and the window's. What a

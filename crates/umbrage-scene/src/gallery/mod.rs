@@ -1,4 +1,4 @@
-//! The scenes behind the papers' figures. The papers give no coordinates; these are Umbrage's reconstructions (spec §9).
+//! The scenes behind the papers' figures. The papers give no coordinates; these are Umbrage's reconstructions.
 //!
 //! Object and light ids are the indices named in each scene's documentation. World units are those of Reeves' biases: a
 //! world about 100 wide, except for Williams' unit spheres, the table of Wang & Molnar, 2000 wide, and Burley's box, 120 high.

@@ -7,7 +7,7 @@ use glam::{DVec3, UVec2, Vec3};
 const RADIUS: f32 = 6.0;
 
 /// A ball (object 0) that flies over a floor (object 2) past a post (object 1), at `time` 0 (just left of the middle)
-/// to 1 (just right of it): its shadow is blurred by motion when maps of several times are put together (B06-deep).
+/// to 1 (just right of it): its shadow is blurred by motion when maps of several times are put together (Burley 2006).
 ///
 /// The ball's middle goes from (−16, 14, 4) to (16, 14, 4) in an arc that is 6 higher half-way. Times outside 0..=1
 /// are brought to the nearer end, NaN to 0. All but the ball is the same, bit for bit, at all times. The floor is y =

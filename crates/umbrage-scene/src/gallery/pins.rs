@@ -41,7 +41,7 @@ struct Throw {
     bearing: f64,
     /// Length of its way in the end, world units.
     way: f64,
-    /// How fast it tips over, radians a frame, until it lies.
+    /// How fast it tips over, radians per frame, until it lies.
     tip: f64,
     /// How high it hops, world units.
     hop: f64,
@@ -103,7 +103,7 @@ fn place(number: u32, frame: f64) -> DMat4 {
         0.0,
         -f64::from(row) * SPACING * 0.75f64.sqrt(),
     );
-    // The blow runs through the pins at five units a frame.
+    // The blow runs through the pins at five units per frame.
     let hit = CONTACT + (spot.distance(DVec3::new(-2.0, 0.0, 7.0)) - 7.0).max(0.0) / 5.0;
     let since = frame - hit;
     let Some(throw) = THROWS.get(number as usize - 1).and_then(Option::as_ref).filter(|_| since > 0.0) else {

@@ -18,7 +18,7 @@ const COLLAR: f32 = 2.5;
 /// Triangles around a pipe, by two.
 const AROUND: u32 = 14;
 
-/// A thicket of shiny pipes before a wall, after Wang & Molnar 1994, Figure 13 (WM94-F13): dense, curved and closed.
+/// A thicket of shiny pipes before a wall, after Wang & Molnar 1994, Figure 13: dense, curved and closed.
 ///
 /// Objects: the floor (0), whose top is y = 0, the wall (1), then a pipe each, with its collars; [`pipe_segments`]
 /// says of how many straight pieces they are. Pipes walk a lattice by a fixed rule, never two through one place;

@@ -14,7 +14,7 @@ const POT: DVec3 = DVec3::new(-20.0, 0.0, -4.0);
 const TUFT: DVec3 = DVec3::new(24.0, 0.0, 10.0);
 
 /// A plant in a pot, its leaves letting green light through, beside a tuft of [`BLADES`] thin blades: partial shadows
-/// for deep maps (B06-deep).
+/// for deep maps (Burley 2006).
 ///
 /// Objects: the floor (0), whose top is y = 0, the pot (1), the soil (2), the stems (3), the leaves (4) and the grass
 /// (5). Leaves and grass are curved two-sided sheets; the leaves pass (0.25, 0.45, 0.15) of the light, the grass a

@@ -8,10 +8,10 @@ pub const SLAB_THICKNESS: f32 = 4.0;
 const GREEN: Vec3 = Vec3::new(0.16, 0.55, 0.20);
 const RED: Vec3 = Vec3::new(0.75, 0.10, 0.08);
 
-/// SC-B: a red sphere (object 0) before an upright green plane (object 1) with a light off to the left (light 0), after
+/// A red sphere (object 0) before an upright green plane (object 1) with a light off to the left (light 0), after
 /// Reeves, Salesin & Cook 1987, Figures 5 to 10 and 1.
 ///
-/// The plane is the face z = 0 of a closed slab 120 × 120, which casts too, so that it can shadow itself (R87-F9). Map
+/// The plane is the face z = 0 of a closed slab 120 × 120, which casts too, so that it can shadow itself. Map
 /// and picture are 1024 × 1024; y is up in the picture.
 ///
 /// # Panics
@@ -27,7 +27,7 @@ pub fn sphere_plane() -> Scene {
     )
 }
 
-/// SC-C: a box (object 0) above the same slab (object 1); its shadow ends in a straight edge along y, near x = 8.4. Light 0
+/// A box (object 0) above the same slab (object 1); its shadow ends in a straight edge along y, near x = 8.4. Light 0
 /// above; its map holds that edge and what throws it, not the whole box. Map and picture are 1024 × 1024.
 ///
 /// # Panics
@@ -42,7 +42,7 @@ pub fn box_plane() -> Scene {
     )
 }
 
-/// SC-B in white under a red, a green and a blue light (lights 0, 1, 2), after Reeves 1987, Figure 11 (R87-23): sphere
+/// The sphere and the plane in white under a red, a green and a blue light (lights 0, 1, 2), after Reeves 1987, Figure 11: sphere
 /// is object 0, slab object 1. Where shadows overlap colours are left out one by one.
 ///
 /// # Panics

@@ -3,8 +3,7 @@ use super::views::camera;
 use crate::{Light, Material, Mesh, Object, Scene};
 use glam::{DVec3, UVec2, Vec3};
 
-/// SC-E: spheres, boxes and cylinders in a corner of a room under one wide spot, after Woo 1992, Figure 2 (W92-F2,
-/// W92-rim).
+/// Spheres, boxes and cylinders in a corner of a room under one wide spot, after Woo 1992, Figure 2.
 ///
 /// Objects 0 to 2 are closed slabs: the floor, whose top is y = 0, the back wall and the left wall. Then come three
 /// spheres (3 to 5), three boxes (6 to 8) and three cylinders (9 to 11). Light 0 is a spot of 75° with a map of 256 ×

@@ -13,14 +13,13 @@ const LEG: f32 = 8.0;
 /// How thick the floor is: many texels, so that its second surface is far from its first.
 const FLOOR: f32 = 60.0;
 
-/// SC-D: a table on a floor, its thin legs touching it, after Wang & Molnar 1994, Figures 4 and 12 (WM94-F4,
-/// WM94-F12).
+/// A table on a floor, its thin legs touching it, after Wang & Molnar 1994, Figures 4 and 12.
 ///
 /// Objects: the floor (0), 2000 × 2000, whose top is y = 0; the table top (1), 600 × 400 × 20 at height 400; its four
 /// legs (2 to 5), 8 × 8, 20 inside the top's edges. All are closed, cast and receive. Legs stand on the floor, face on
 /// face, and end 10 inside the top, so that no light passes between. Light 0 is at distance 3500 in direction −x, 25°
 /// above the horizon, aimed at the origin: faces of the legs are square to its bearing, so that a leg is 8 thick along
-/// the light (D-10). Its map is 512 × 512 and a texel 3.92 wide at the origin. The picture is 512 × 512; see
+/// the light. Its map is 512 × 512 and a texel 3.92 wide at the origin. The picture is 512 × 512; see
 /// [`table_close_up`] for a single leg.
 ///
 /// # Panics

@@ -4,7 +4,7 @@ use glam::{DVec3, UVec2, Vec3};
 use umbrage_plane::View;
 
 /// The Utah teapot (object 0) on a slab (object 1) under a spot light from the left (light 0): curved shadows on a
-/// curved surface, after Williams 1978. 32 patches, diced for each view (W78-23).
+/// curved surface, after Williams 1978. 32 patches, diced for each view.
 ///
 /// The pot is 63 world units long and 31.5 high, stands on y = 0 and is two-sided; its handle throws a shadow on its
 /// body, its knob one on the lid. The slab is closed and casts. Map and picture are 1024 × 1024.

@@ -16,7 +16,7 @@ const BLUE: Material = Material::plastic(Vec3::new(0.12, 0.26, 0.66));
 const OCHRE: Material = Material::plastic(Vec3::new(0.72, 0.50, 0.14));
 
 /// A slab [`THIN`] thick (object 0) above a floor (object 1), under a light at infinity 45° above the horizon in
-/// direction −x, after Wang & Molnar 1994, Figure 7 (WM94-F7).
+/// direction −x, after Wang & Molnar 1994, Figure 7.
 ///
 /// The map is 160 world units across: on the slab the depth changes by 160/n units from one texel of an n² map to the
 /// next, which is more than the 0.57 that lie between its two surfaces along the light, for n up to 256. Light 0 has
@@ -37,7 +37,7 @@ pub fn thin_slab() -> Scene {
 }
 
 /// Nothing but two-sided sheets: a ground (object 0), a card that hangs above it (1) and a screen that leans over it
-/// (2), after Wang & Molnar 1994, §3.3 (WM94-sheets).
+/// (2), after Wang & Molnar 1994, §3.3.
 ///
 /// `bent` makes waves of the ground, an arch of the card and a cylinder's wall of the screen; else all three are
 /// plane. Light 0 is at infinity, 50° above the horizon, with a map of 512 × 512; the picture is 1024 × 1024. All
@@ -73,7 +73,7 @@ pub fn sheets(bent: bool) -> Scene {
 }
 
 /// Two small balls (objects 1 and 2) close above a large one (object 0), on the side of a light at infinity in
-/// direction −x, where the large one turns away from it, after Wang & Molnar 1994, Figure 9 (WM94-F9).
+/// direction −x, where the large one turns away from it, after Wang & Molnar 1994, Figure 9.
 ///
 /// The large ball has radius 20 about the origin. The small balls' umbra on it, in full view of the camera, is where
 /// N·L lies between 0 and 0.25 for the greater part. Light 0 has 256 × 256 texels; the picture is 1024 × 1024.

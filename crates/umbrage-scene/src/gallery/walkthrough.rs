@@ -4,7 +4,7 @@ use super::views::camera;
 use crate::{Light, Material, Mesh, Object, Scene, Shape};
 use glam::{DVec3, UVec2, Vec3};
 
-/// A hall in the sun, as one walks through a building, after Wang & Molnar 1994, Figure 14 (WM94-F14): polygons large
+/// A hall in the sun, as one walks through a building, after Wang & Molnar 1994, Figure 14: polygons large
 /// and thin, solids and sheets together.
 ///
 /// Solids: `floor`, whose top is y = 0, `window wall` with three tall windows, `walls` with a doorway to a court

@@ -1,4 +1,4 @@
-//! Interaction traps (spec §11) that concern Williams' and Reeves' filters, one test each. T-4 and T-20 are among Reeves' tests, T-14 with the
+//! Traps where two choices meet (T-1 to T-20) that concern Williams' and Reeves' filters, one test each. T-4 and T-20 are among Reeves' tests, T-14 with the
 //! listing, T-15 with the post-process, T-16 with lights in all directions.
 
 use glam::{DVec3, IVec2, UVec2, Vec2, Vec3};
