@@ -22,6 +22,7 @@ mod manifest;
 mod maps;
 mod memory;
 mod names;
+mod paint;
 mod parts;
 mod pictures;
 mod render;
@@ -31,7 +32,9 @@ mod shadow;
 mod shell;
 mod stage;
 mod takes;
+mod turns;
 mod values;
+mod view;
 
 use args::{Cli, Command};
 use clap::Parser;
@@ -119,6 +122,7 @@ fn command(cli: &Cli, shell: &mut Shell<'_>) -> anyhow::Result<()> {
         Command::Export(args) => export::run(cli, args, shell),
         Command::Info(args) => info::run(cli, args, shell),
         Command::Lookup(args) => lookup::run(cli, args, shell),
+        Command::View(args) => view::run(cli, args, shell),
         Command::Recipes(args) => listing::recipes(cli, args, shell),
         Command::Scenes => listing::scenes(cli, shell),
         Command::Generate(args) => generate::run(args),

@@ -133,6 +133,7 @@ fn scene_args(args: &CompareArgs) -> SceneArgs {
         map_size: args.map_size[0],
         recipe: None,
         light: args.light.clone(),
+        turn_light: args.turn_light.clone(),
         camera: args.camera.clone(),
         time: args.time,
         animation: args.animation.clone(),
