@@ -146,7 +146,9 @@ pub fn streaming_sheet(count: u32, side: u32) -> impl Iterator<Item = Triangle> 
 /// A knotted tube, closed, over a square ground at y = 0: `2 · along · around` triangles and two.
 pub fn knot_on_ground(along: u32, around: u32) -> Mesh {
     let knot = umbrage_scene::Mesh::knot(along, around);
-    let mut mesh = Mesh { vertices: knot.positions, triangles: knot.triangles, solid: 0 };
+    // Every figure of this crate was taken with these corners in this order.
+    let triangles = knot.triangles.into_iter().map(|[a, b, c]| [a, c, b]).collect();
+    let mut mesh = Mesh { vertices: knot.positions, triangles, solid: 0 };
     mesh.solid = mesh.triangles.len();
     let corners = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
     mesh.add_quad(corners.map(|(x, z)| Vec3::new(x * 40.0, 0.0, z * 40.0)));

@@ -9,22 +9,21 @@ use umbrage_scene::Scene;
 /// Views of a lamp that shines all around.
 const AROUND: usize = 6;
 
-/// Turns lights that cast shadows, and the views of their maps, one after the other.
+/// Turns lights that cast shadows, and the views of their maps; of several turns of a light the last one counts.
 ///
 /// # Errors
 /// A name that no light has, or a view that cannot be.
 pub fn turn(scene: &mut Scene, lamps: &mut [Lamp], turns: &[TurnLight]) -> anyhow::Result<()> {
     for turn in turns {
         stage::check_name("--turn-light", scene, lamps, &turn.name)?;
-        for lamp in lamps.iter_mut() {
-            if lamp.is_called(scene, &turn.name) {
-                let turned = scene.turned(&scene.lights[lamp.light].view, turn.to);
-                let views = turned.and_then(|view| Ok((view, views(&view, &lamp.views)?)));
-                let (view, views) = views.with_context(|| format!("--turn-light {turn}"))?;
-                scene.lights[lamp.light].view = view;
-                lamp.views = views;
-            }
-        }
+    }
+    for lamp in lamps {
+        let Some(turn) = turns.iter().rfind(|turn| lamp.is_called(scene, &turn.name)) else { continue };
+        let turned = scene.turned(&scene.lights[lamp.light].view, turn.to);
+        let views = turned.and_then(|view| Ok((view, views(&view, &lamp.views)?)));
+        let (view, views) = views.with_context(|| format!("--turn-light {turn}"))?;
+        scene.lights[lamp.light].view = view;
+        lamp.views = views;
     }
     Ok(())
 }

@@ -28,7 +28,7 @@ impl Mesh {
             for j in 0..around {
                 let vertex = |i: u32, j: u32| (i % along) * around + j % around;
                 let [a, b, c, d] = [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
-                mesh.triangles.extend([[a, c, b], [a, d, c]]);
+                mesh.triangles.extend([[a, b, c], [a, c, d]]);
                 mesh.surfaces.extend([0, 0]);
             }
         }

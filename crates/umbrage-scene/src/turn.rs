@@ -6,6 +6,8 @@ use umbrage_plane::{Projection, View, ViewError};
 
 /// What is added around that which a widened map must hold, as a fraction.
 const MARGIN: f64 = 1.0 / 1024.0;
+/// The least distance at which a lamp is turned, as a share of half the diagonal of the box around all objects: one in the middle of a scene moves as well.
+const LEAST: f64 = 0.25;
 
 /// In which direction a light stands, seen from what it shines at; y is up.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +39,7 @@ impl Bearing {
 
 impl Scene {
     /// The place that a light is turned about: on the axis of its view, of a sun in the middle between its near and far plane, otherwise as far
-    /// along as the middle of the box around all objects, but not before the near plane nor behind the far plane.
+    /// along as the middle of the box around all objects, but at least a quarter of its radius away, and between the near and the far plane.
     pub fn pivot(&self, light: &View) -> DVec3 {
         let eye = light.eye_to_world().w_axis.truncate();
         let mut along = 0.5 * (light.near() + light.far());
@@ -46,7 +48,10 @@ impl Scene {
                 let (low, high): (DVec3, DVec3) = known.unwrap_or((at, at));
                 Some((low.min(at), high.max(at)))
             });
-            let middle = bounds.map(|(low, high)| light.ahead().dot((low + high) * 0.5 - eye));
+            let middle = bounds.map(|(low, high)| {
+                let least = LEAST * 0.5 * (high - low).length();
+                light.ahead().dot((low + high) * 0.5 - eye).max(least)
+            });
             along = middle.filter(|along| along.is_finite()).unwrap_or(along).clamp(light.near(), light.far());
         }
         eye + light.ahead() * along

@@ -1,7 +1,7 @@
 // The page: its controls, its state, and what is shown of both.
 
 import { State } from "./state.js";
-import { Recipe, made, showFields } from "./recipe.js";
+import { Recipe, made, showFields, worded } from "./recipe.js";
 import { Asking, ask } from "./asking.js";
 import { Picture } from "./picture.js";
 
@@ -19,9 +19,9 @@ function problem(error) {
   by("status").textContent = "";
 }
 
-// Degrees with one digit, azimuths from -180 to 180.
+// Degrees with one digit; azimuths above -180, at most 180.
 const tenth = (degrees) => Math.round(degrees * 10) / 10;
-const around = (degrees) => tenth(degrees - 360 * Math.round(degrees / 360));
+const around = (degrees) => tenth(degrees - 360 * Math.ceil(degrees / 360 - 0.5));
 const bounded = (degrees) => tenth(Math.min(90, Math.max(-90, degrees)));
 
 // The light that is turned: the only one that shines, or the one that is chosen.
@@ -91,9 +91,10 @@ function tags() {
 function showRecipe() {
   recipe = new Recipe(state.recipe ?? "auto");
   const preset = about.recipes.find(({ name }) => name === recipe.name) ?? about.recipes[0];
-  by("recipe").value = state.recipe === null && about.ownRecipes ? "" : preset.name;
-  by("about").textContent = state.recipe === null && about.ownRecipes ? "The recipe that each light's own tree names, or auto." : `${preset.about}.`.replaceAll("`", "").replace("..", ".");
-  by("more").hidden = state.recipe === null && about.ownRecipes;
+  const own = state.recipe === null && about.ownRecipes;
+  by("recipe").value = own ? "" : preset.name;
+  by("about").replaceChildren(...worded(own ? "what each light's own tree names, or else auto" : preset.about));
+  by("more").hidden = own;
   showFields(by("fields"), preset, recipe, () => {
     state.recipe = recipe.text();
     changed();
@@ -152,7 +153,10 @@ const shown = {
     by("words").replaceChildren(...lights.flatMap(({ words, fault, svg }) => {
       const all = [made("pre", { textContent: words, tabIndex: 0 })];
       if (fault) all.unshift(made("p", {}, made("strong", { textContent: fault })));
-      if (svg) all.push(document.importNode(new DOMParser().parseFromString(svg, "image/svg+xml").documentElement, true));
+      if (svg) {
+        const drawn = new DOMParser().parseFromString(svg, "image/svg+xml").documentElement;
+        all.push(made("div", { className: "drawn" }, document.importNode(drawn, true)));
+      }
       return all;
     }));
   },
@@ -294,6 +298,7 @@ async function start() {
   const sizes = [...new Set([...SIZES, about.mapSize, Number(state.mapSize) || about.mapSize])].sort((a, b) => a - b);
   fill(by("map-size"), sizes.map((size) => [size, `${size} × ${size} texels`]), about.mapSize);
   fill(by("samples"), [1, 4, 16, 64].map((count) => [count, count === 1 ? "1 a pixel" : `${count} a pixel`]), about.samples);
+  by("more").open = innerWidth >= 860;
   picture = new Picture(by("canvas"), about.size, does);
   asking = new Asking(state, shown);
   showRecipe();

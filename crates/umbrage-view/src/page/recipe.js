@@ -22,18 +22,23 @@ export function made(tag, properties = {}, ...children) {
   return element;
 }
 
+// A text whose words between backticks are code.
+export function worded(text) {
+  return text.split("`").map((part, index) => (index % 2 ? made("code", { textContent: part }) : part));
+}
+
 // The control of a field with its value, which is null where it has none. `changed` is given the new one.
 function control(field, value, id, changed) {
   const { control: kind, default: own } = field;
   if (kind.type === "words") {
     const options = kind.words.map((word) => made("option", { value: word, textContent: word === own ? `${word} (default)` : word }));
-    if (own === null) options.unshift(made("option", { value: "", textContent: "by itself (default)" }));
+    if (own === null) options.unshift(made("option", { value: "", textContent: "not set (default)" }));
     const select = made("select", { id }, ...options);
     select.value = value ?? own ?? "";
     select.addEventListener("change", () => changed(select.value));
     return select;
   }
-  const input = made("input", { id, type: kind.type === "text" ? "text" : "number", placeholder: own ?? "by itself", value: value ?? "" });
+  const input = made("input", { id, type: kind.type === "text" ? "text" : "number", placeholder: own ?? "not set", value: value ?? "" });
   if (kind.type !== "text") {
     input.step = kind.type === "whole" ? "1" : "any";
     input.min = kind.least;
@@ -65,6 +70,6 @@ export function showFields(place, preset, recipe, changed) {
     row.append(made("label", { htmlFor: id, textContent: field.name }), input);
     const source = field.source ? ` (${field.source})` : "";
     const values = field.control.type === "words" ? "" : `${field.values}; `;
-    place.append(row, made("p", { className: "about", id: `${id}-about`, textContent: `${values}${field.about}${source}`.replaceAll("`", "") }));
+    place.append(row, made("p", { className: "about", id: `${id}-about` }, ...worded(`${values}${field.about}${source}`)));
   }
 }
