@@ -16,6 +16,7 @@ mod gather;
 mod generate;
 mod info;
 mod lamp;
+mod lights;
 mod listing;
 mod lookup;
 mod manifest;
@@ -38,7 +39,7 @@ mod view;
 
 use args::{Cli, Command};
 use clap::Parser;
-use shell::{Exceeded, Output, Shell, Usage};
+use shell::{Exceeded, Output, Shell, Usage, line};
 use std::ffi::OsString;
 use std::io::{BufRead, ErrorKind, Write};
 
@@ -84,17 +85,6 @@ pub fn run(
             }
         }
     }
-}
-
-/// An error and its causes as one line. A cause that the text before it already ends with is not repeated.
-fn line(error: &anyhow::Error) -> String {
-    let mut line = error.to_string();
-    for cause in error.chain().skip(1).map(ToString::to_string) {
-        if !line.ends_with(&cause) {
-            line = format!("{line}: {cause}");
-        }
-    }
-    line.replace(['\n', '\r'], " ")
 }
 
 /// Whether errors and help are coloured. `--color` is found before the command line is parsed, so that it also holds for errors of parsing.

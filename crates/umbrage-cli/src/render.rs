@@ -2,10 +2,11 @@
 
 use crate::args::{Cli, Format, RenderArgs};
 use crate::draws::{Draws, Keep};
+use crate::lights::Lamp;
 use crate::report::Line;
 use crate::shadow::{frame, options, rays};
 use crate::shell::{Shell, Usage};
-use crate::stage::{Lamp, Stage};
+use crate::stage::Stage;
 use crate::takes::Take;
 use crate::{lamp, names, pictures};
 use serde_json::{Map, Value, json};

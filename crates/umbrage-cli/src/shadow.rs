@@ -2,9 +2,10 @@
 
 use crate::args::{Cli, Format, SceneArgs, ShadowArgs, WindowArg};
 use crate::draws::{Draws, Keep};
+use crate::lights::Lamp;
 use crate::report::Line;
 use crate::shell::{Shell, Usage};
-use crate::stage::{self, Lamp, Stage};
+use crate::stage::{self, Stage};
 use crate::takes::Take;
 use crate::values::Area;
 use crate::{lamp, names, pictures};

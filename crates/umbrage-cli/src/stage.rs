@@ -1,6 +1,7 @@
 //! The scene that a command is about.
 
 use crate::args::SceneArgs;
+use crate::lights::{self, Lamp};
 use crate::memory::{self, Need};
 use crate::names;
 use crate::shell::{Shell, Usage};
@@ -19,26 +20,6 @@ pub const GALLERY: &str = "gallery:";
 
 /// Rows of a picture whose size is not given.
 const HEIGHT: u32 = 512;
-
-/// A light of a scene, and the views in which it has maps.
-#[derive(Clone)]
-pub struct Lamp {
-    /// Which of the scene's lights it is.
-    pub light: usize,
-    /// Its name in names of files.
-    pub name: String,
-    /// The views that its maps have: one, or several that stand around it.
-    pub views: Vec<View>,
-    /// Its radius: world units, of a sun radians; 0 where it has none.
-    pub radius: f64,
-}
-
-impl Lamp {
-    /// Whether a name is the light's own, or the one that it has in names of files.
-    pub fn is_called(&self, scene: &Scene, name: &str) -> bool {
-        self.name == name || scene.lights[self.light].name == name
-    }
-}
 
 /// A scene with its camera and maps as the command line wants them.
 pub struct Stage {
@@ -91,7 +72,7 @@ impl Stage {
         let recipe = args.recipe.as_deref().map(|text| recipe(text, args.map_size)).transpose()?;
         let mut lamps = casting(&scene, lamps);
         turns::turn(&mut scene, &mut lamps, &args.turn_light)?;
-        let lamps = wanted(&scene, lamps, &args.light)?;
+        let lamps = lights::wanted(&scene, lamps, &args.light)?;
         let casting = scene.lights.iter().filter(|light| light.casts).count();
         let triangles = scene.objects.iter().map(|object| match &object.shape {
             umbrage_scene::Shape::Mesh(mesh) => mesh.triangles.len() as u64,
@@ -222,30 +203,6 @@ fn casting(scene: &Scene, lamps: Vec<umbrage_gltf::Lamp>) -> Vec<Lamp> {
         scene.lights[light].casts.then(one)
     };
     lamps.into_iter().enumerate().filter_map(lamp).collect()
-}
-
-/// Of the lights that cast shadows those that are named, or all where none is.
-///
-/// # Errors
-/// A name that no light has.
-pub fn wanted(scene: &Scene, mut lamps: Vec<Lamp>, wanted: &[String]) -> anyhow::Result<Vec<Lamp>> {
-    for name in wanted {
-        check_name("--light", scene, &lamps, name)?;
-    }
-    lamps.retain(|lamp| wanted.is_empty() || wanted.iter().any(|name| lamp.is_called(scene, name)));
-    Ok(lamps)
-}
-
-/// Nothing, if one of the lights has a name.
-///
-/// # Errors
-/// One line with the names that there are; `option` is what the name was given by.
-pub fn check_name(option: &str, scene: &Scene, lamps: &[Lamp], name: &str) -> anyhow::Result<()> {
-    if lamps.iter().any(|lamp| lamp.is_called(scene, name)) {
-        return Ok(());
-    }
-    let known: Vec<&str> = lamps.iter().map(|lamp| lamp.name.as_str()).collect();
-    Err(Usage(format!("{option} {name:?}: the lights that cast shadows are {}", known.join(", "))).into())
 }
 
 /// A recipe as it is written, or as a TOML file holds it; `rsl,` and the parameters of that language's `shadow()` are one for maps of `map_size` texels a side.

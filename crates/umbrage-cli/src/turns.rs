@@ -1,6 +1,6 @@
 //! Lights that are turned.
 
-use crate::stage::{self, Lamp};
+use crate::lights::{self, Lamp};
 use crate::values::TurnLight;
 use anyhow::Context;
 use umbrage_plane::{View, ViewError, cube_views};
@@ -15,7 +15,7 @@ const AROUND: usize = 6;
 /// A name that no light has, or a view that cannot be.
 pub fn turn(scene: &mut Scene, lamps: &mut [Lamp], turns: &[TurnLight]) -> anyhow::Result<()> {
     for turn in turns {
-        stage::check_name("--turn-light", scene, lamps, &turn.name)?;
+        lights::check_name("--turn-light", scene, lamps, &turn.name)?;
     }
     for lamp in lamps {
         let Some(turn) = turns.iter().rfind(|turn| lamp.is_called(scene, &turn.name)) else { continue };

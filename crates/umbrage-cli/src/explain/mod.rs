@@ -9,9 +9,10 @@ mod words;
 
 use crate::args::{Cli, ExplainArgs};
 use crate::lamp;
+use crate::lights::Lamp;
 use crate::shadow::{self, Turned};
 use crate::shell::{Shell, Usage};
-use crate::stage::{Lamp, Stage};
+use crate::stage::Stage;
 use anyhow::Context;
 use asked::{Asked, Recorder};
 use owners::Owners;

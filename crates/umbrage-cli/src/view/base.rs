@@ -1,11 +1,12 @@
 //! The scene as the command line has it, and what a state of the page makes of it.
 
 use crate::args::{Cli, SceneArgs, ViewArgs};
+use crate::lights::{self, Lamp};
 use crate::memory::Need;
 use crate::render;
 use crate::shadow;
 use crate::shell::Usage;
-use crate::stage::{self, Lamp, Stage};
+use crate::stage::{self, Stage};
 use crate::turns;
 use crate::values::{TurnLight, turn_light};
 use anyhow::anyhow;
@@ -69,7 +70,7 @@ impl Base {
             need: stage.need,
         };
         for turn in &args.scene.turn_light {
-            stage::check_name("--turn-light", &stage.scene, &base.lamps, &turn.name)?;
+            lights::check_name("--turn-light", &stage.scene, &base.lamps, &turn.name)?;
         }
         Ok(base)
     }
@@ -120,7 +121,7 @@ impl Base {
         stage.scene.lights.clone_from(&self.lights);
         stage.scene.camera = if draft { stage::sized(&self.camera, small(self.camera.size()))? } else { self.camera };
         turns::turn(&mut stage.scene, &mut lamps, &setting.turns)?;
-        stage.lamps = stage::wanted(&stage.scene, lamps, &setting.lights)?;
+        stage.lamps = lights::wanted(&stage.scene, lamps, &setting.lights)?;
         stage.recipe = setting.recipe;
         stage.resize(setting.map_size)?;
         let maps: u64 = stage.lamps.iter().map(|lamp| lamp.views.len() as u64).sum();

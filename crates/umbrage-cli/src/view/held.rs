@@ -3,9 +3,10 @@
 use super::base::{Base, Setting, one};
 use super::truths::{Judged, JudgedKey, Kept, TruthKey, Truths, Until};
 use crate::lamp;
+use crate::lights::Lamp;
 use crate::render::picture_by;
 use crate::shadow::{self, Turned};
-use crate::stage::{Lamp, Stage};
+use crate::stage::Stage;
 use std::sync::Arc;
 use umbrage_oracle::Geometry;
 use umbrage_oracle::judge::{Drawn, Judge, Seen};
@@ -51,7 +52,7 @@ impl From<Fault> for Refusal {
     fn from(fault: Fault) -> Self {
         match fault {
             Fault::Stopped => Self::Stopped,
-            Fault::Error(error) => Self::Wrong(crate::line(&error)),
+            Fault::Error(error) => Self::Wrong(crate::shell::line(&error)),
         }
     }
 }

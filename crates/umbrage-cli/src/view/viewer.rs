@@ -132,7 +132,7 @@ impl Answers for Viewer {
 
     fn lines(&self, state: &State) -> Result<String, Refusal> {
         let lines = self.base.setting(state).map(|setting| command::lines(&self.base, &setting));
-        let lines = lines.map_err(|error| Refusal::Wrong(crate::line(&error)))?;
+        let lines = lines.map_err(|error| Refusal::Wrong(crate::shell::line(&error)))?;
         let lines: Vec<Value> = lines.into_iter().map(|(what, line)| json!({ "what": what, "line": line })).collect();
         Ok(json!({ "lines": lines }).to_string())
     }
