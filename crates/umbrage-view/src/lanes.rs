@@ -2,7 +2,7 @@
 
 use crate::Stop;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use tokio::sync::{Semaphore, SemaphorePermit, TryAcquireError};
+use tokio::sync::{Semaphore, SemaphorePermit};
 
 /// Most requests that wait to be drawn; further ones are refused.
 const MOST_WAITING: usize = 128;
@@ -63,10 +63,7 @@ impl Lanes {
 
     /// A place among those who wait; `None` where there are too many.
     pub fn enter(&self) -> Option<SemaphorePermit<'_>> {
-        match self.waiting.try_acquire() {
-            Ok(place) => Some(place),
-            Err(TryAcquireError::NoPermits | TryAcquireError::Closed) => None,
-        }
+        self.waiting.try_acquire().ok()
     }
 
     /// Runs what draws on a thread of its own once it is its turn; `None` where it stopped by a fault of its own. A quick picture stops the slow one that is being drawn.

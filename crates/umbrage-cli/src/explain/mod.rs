@@ -15,8 +15,9 @@ use crate::shell::{Shell, Usage};
 use crate::stage::Stage;
 use anyhow::Context;
 use asked::{Asked, Recorder};
+pub use fault::Fault;
 use owners::Owners;
-use region::Region;
+pub use region::Region;
 use serde_json::json;
 use std::cell::OnceCell;
 use umbrage_io::write_bytes;
@@ -44,7 +45,7 @@ pub fn run(cli: &Cli, args: &ExplainArgs, shell: &mut Shell<'_>) -> anyhow::Resu
         let recipe = stage.recipe_of(lamp)?;
         let shadow = lamp::shadow_of(&stage, lamp, &recipe)?.shadow;
         let frame = shadow::frame(args.samples, cli.seed, args.scene.frame);
-        let light = Lit::new(&stage, lamp, recipe, &*shadow, frame, &geometry);
+        let light = Lit::new(&stage, lamp, &recipe, &*shadow, frame, &geometry);
         for &at in &args.pixel {
             let words = light.explained(at)?;
             if let Some(path) = &args.output {
@@ -81,12 +82,12 @@ impl<'a> Lit<'a> {
     pub fn new(
         stage: &'a Stage,
         lamp: &'a Lamp,
-        recipe: Recipe,
+        recipe: &Recipe,
         shadow: &'a dyn Shadow,
         frame: Frame,
         geometry: &'a Geometry,
     ) -> Self {
-        Self { stage, lamp, recipe, shadow, unbiased: OnceCell::new(), frame, geometry }
+        Self { stage, lamp, recipe: *recipe, shadow, unbiased: OnceCell::new(), frame, geometry }
     }
 
     /// All that is to say of a pixel inside the picture.

@@ -89,10 +89,10 @@ impl Viewer {
             let recipe = held.stage.recipe_of(&lamp)?;
             let made = held.shadow(&lamp, &recipe)?;
             let frame = base.frame(setting, false);
-            let light = Lit::new(&held.stage, &lamp, recipe, &*made.shadow, frame, &geometry);
+            let light = Lit::new(&held.stage, &lamp, &recipe, &*made.shadow, frame, &geometry);
             let words = light.explained(pixel)?;
-            let fault = words.regions.iter().find_map(|region| region.fault.as_ref()).map(|fault| fault.name());
-            let drawn = words.regions.first().and_then(|region| region.drawn());
+            let fault = words.regions.iter().find_map(|region| region.fault.as_ref()).map(crate::explain::Fault::name);
+            let drawn = words.regions.first().and_then(crate::explain::Region::drawn);
             lights.push(json!({ "light": lamp.name, "words": words.to_string(), "fault": fault, "svg": drawn }));
         }
         Ok(json!({ "pixel": pixel, "lights": lights }).to_string())

@@ -55,7 +55,7 @@ fn turning_is_smooth_even_straight_above() {
                 [elevation, elevation + 0.01].map(|el| scene.turned(view, bearing(azimuth, el)).expect("a view"));
             let apart = a.eye_to_world() - b.eye_to_world();
             let most =
-                [apart.x_axis, apart.y_axis, apart.z_axis].map(|axis| axis.length()).into_iter().fold(0.0, f64::max);
+                [apart.x_axis, apart.y_axis, apart.z_axis].map(glam::DVec4::length).into_iter().fold(0.0, f64::max);
             assert!(most < 2e-4, "{azimuth} {elevation}: {most}");
         }
     }

@@ -289,7 +289,7 @@ async function start() {
   by("scene").textContent = about.scene;
   by("canvas").setAttribute("aria-label", `Picture of ${about.scene}, ${about.size[0]} by ${about.size[1]} pixels`);
   state = new State(location.hash.length > 1 ? location.hash.slice(1) : about.first);
-  const named = about.lights.map(({ name, kind }) => [name, `${name} (${kind})`]);
+  const named = about.lights.map(({ name, kind }) => [name, name === kind ? name : `${name} (${kind})`]);
   fill(by("light"), [["", named.length > 1 ? "all lights" : named[0]?.[1] ?? "no light casts shadows"], ...(named.length > 1 ? named : [])], "");
   fill(by("turned"), named, named[0]?.[0]);
   by("choice").hidden = named.length < 1;
@@ -298,6 +298,7 @@ async function start() {
   const sizes = [...new Set([...SIZES, about.mapSize, Number(state.mapSize) || about.mapSize])].sort((a, b) => a - b);
   fill(by("map-size"), sizes.map((size) => [size, `${size} × ${size} texels`]), about.mapSize);
   fill(by("samples"), [1, 4, 16, 64].map((count) => [count, count === 1 ? "1 a pixel" : `${count} a pixel`]), about.samples);
+  by("page").hidden = false;
   by("more").open = innerWidth >= 860;
   picture = new Picture(by("canvas"), about.size, does);
   asking = new Asking(state, shown);
