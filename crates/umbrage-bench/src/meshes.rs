@@ -145,29 +145,10 @@ pub fn streaming_sheet(count: u32, side: u32) -> impl Iterator<Item = Triangle> 
 
 /// A knotted tube, closed, over a square ground at y = 0: `2 · along · around` triangles and two.
 pub fn knot_on_ground(along: u32, around: u32) -> Mesh {
-    let mut mesh = Mesh::default();
-    let curve = |turn: f32| {
-        let (p, q) = (2.0 * turn, 3.0 * turn);
-        let radius = 2.2 + 0.8 * q.cos();
-        Vec3::new(radius * p.cos(), 1.8 + 0.8 * q.sin(), radius * p.sin())
-    };
-    for i in 0..along {
-        let turn = TAU * i as f32 / along as f32;
-        let tangent = (curve(turn + 1e-2) - curve(turn - 1e-2)).normalize();
-        let side = tangent.cross(Vec3::Y).normalize();
-        let up = side.cross(tangent);
-        for j in 0..around {
-            let (sin, cos) = (TAU * j as f32 / around as f32).sin_cos();
-            mesh.vertices.push(curve(turn) + (side * cos + up * sin) * 0.42);
-        }
-    }
-    for i in 0..along {
-        for j in 0..around {
-            let vertex = |i: u32, j: u32| (i % along) * around + j % around;
-            let [a, b, c, d] = [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
-            mesh.triangles.extend([[a, c, b], [a, d, c]]);
-        }
-    }
+    let knot = umbrage_scene::Mesh::knot(along, around);
+    // Every figure of this crate was taken with these corners in this order.
+    let triangles = knot.triangles.into_iter().map(|[a, b, c]| [a, c, b]).collect();
+    let mut mesh = Mesh { vertices: knot.positions, triangles, solid: 0 };
     mesh.solid = mesh.triangles.len();
     let corners = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
     mesh.add_quad(corners.map(|(x, z)| Vec3::new(x * 40.0, 0.0, z * 40.0)));

@@ -2,7 +2,8 @@
 
 use crate::compare_args::CompareArgs;
 use crate::values::{
-    Area, Frames, MOST_PICTURES, Shard, area, frames, pixel, radius, samples, seconds, shard, size, tolerance,
+    Area, Frames, MOST_PICTURES, Shard, TurnLight, area, frames, pixel, radius, samples, seconds, shard, size,
+    tolerance, turn_light,
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::UVec2;
@@ -132,6 +133,15 @@ Examples:
   umbrage export gallery:contact-box -o box.glb
   umbrage export gallery:three-lights --map-size 1024 -o lights.glb")]
     Export(ExportArgs),
+    /// Show a scene on a page in a browser: change the recipe, drag the light, wipe against truth, click a pixel
+    #[command(
+        after_help = "The address that is printed works on this machine alone, and as long as the command runs; Ctrl-C ends it. Nothing is written.
+
+Examples:
+  umbrage view gallery:knot --open
+  umbrage view fixtures/scenes/suzi.glb --size 640x480 --recipe reeves87"
+    )]
+    View(ViewArgs),
     /// List the algorithms by name, or the parameters of one
     #[command(after_help = "Examples:
   umbrage recipes
@@ -166,7 +176,7 @@ pub struct TakesArgs {
 }
 
 /// How a scene is seen.
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub struct SceneArgs {
     /// Columns and rows of the picture; the vertical angle of view is kept
     #[arg(long, value_name = "WxH", value_parser = size)]
@@ -181,6 +191,10 @@ pub struct SceneArgs {
     /// Only these lights
     #[arg(long, value_name = "NAME", num_args = 1..)]
     pub light: Vec<String>,
+    /// Turn a light about what it shines at until it stands in this direction from there, at its old distance: degrees from +x toward +z, and
+    /// above the horizon; may be given for several lights
+    #[arg(long, value_name = "NAME=AZIMUTH,ELEVATION", value_parser = turn_light)]
+    pub turn_light: Vec<TurnLight>,
     /// The camera of a file, its first unless given
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
@@ -211,6 +225,9 @@ pub struct RenderArgs {
     /// Samples for each pixel: 1 (its centre), 4, 16 or 64
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = samples)]
     pub samples: u32,
+    /// Cast rays instead of asking maps
+    #[arg(long)]
+    pub truth: bool,
 }
 
 #[derive(Args)]
@@ -344,6 +361,24 @@ pub struct ExplainArgs {
     /// Draw the texels around the first surface of the pixel, with its footprint and the taps
     #[arg(short, long, value_name = "FILE.svg")]
     pub output: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub struct ViewArgs {
+    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a scene that is built in (`umbrage scenes` lists them)
+    #[arg(value_name = "SCENE")]
+    pub source: String,
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// Samples for each pixel at first: 1 (its centre), 4, 16 or 64
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = samples)]
+    pub samples: u32,
+    /// The port that is listened on, a free one unless given
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub port: u16,
+    /// Open the page in the browser that the system has for addresses
+    #[arg(long)]
+    pub open: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -1,6 +1,6 @@
 //! The options of `umbrage compare`.
 
-use crate::values::{Area, area, samples, seconds, size};
+use crate::values::{Area, TurnLight, area, samples, seconds, size, turn_light};
 use clap::Args;
 use glam::UVec2;
 use std::path::PathBuf;
@@ -19,6 +19,10 @@ pub struct CompareArgs {
     /// Only these lights
     #[arg(long, value_name = "NAME", num_args = 1..)]
     pub light: Vec<String>,
+    /// Turn a light about what it shines at until it stands in this direction from there, at its old distance: degrees from +x toward +z, and
+    /// above the horizon; may be given for several lights
+    #[arg(long, value_name = "NAME=AZIMUTH,ELEVATION", value_parser = turn_light)]
+    pub turn_light: Vec<TurnLight>,
     /// Columns and rows of the pictures; the vertical angle of view is kept
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<UVec2>,

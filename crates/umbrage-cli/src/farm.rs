@@ -2,7 +2,7 @@
 
 use crate::args::{Cli, Command, JobsArgs, Scheduler};
 use crate::render;
-use crate::shell::{Shell, Usage};
+use crate::shell::{Shell, Usage, quoted};
 use clap::Parser;
 use serde_json::json;
 use std::path::PathBuf;
@@ -136,13 +136,4 @@ exec {gather}
 END
 "
     )
-}
-
-/// A word as a shell takes it for that word.
-fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-./:=,+@%".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return word.into();
-    }
-    format!("'{}'", word.replace('\'', r"'\''"))
 }

@@ -1,7 +1,8 @@
 //! A light's shadow.
 
+use crate::lights::Lamp;
 use crate::memory::Need;
-use crate::stage::{Lamp, Stage};
+use crate::stage::Stage;
 use anyhow::Context;
 use umbrage_depth::Storage;
 use umbrage_recipe::{LightShadow, LightUse, Recipe};

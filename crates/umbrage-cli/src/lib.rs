@@ -16,12 +16,14 @@ mod gather;
 mod generate;
 mod info;
 mod lamp;
+mod lights;
 mod listing;
 mod lookup;
 mod manifest;
 mod maps;
 mod memory;
 mod names;
+mod paint;
 mod parts;
 mod pictures;
 mod render;
@@ -31,11 +33,13 @@ mod shadow;
 mod shell;
 mod stage;
 mod takes;
+mod turns;
 mod values;
+mod view;
 
 use args::{Cli, Command};
 use clap::Parser;
-use shell::{Exceeded, Output, Shell, Usage};
+use shell::{Exceeded, Output, Shell, Usage, line};
 use std::ffi::OsString;
 use std::io::{BufRead, ErrorKind, Write};
 
@@ -83,17 +87,6 @@ pub fn run(
     }
 }
 
-/// An error and its causes as one line. A cause that the text before it already ends with is not repeated.
-fn line(error: &anyhow::Error) -> String {
-    let mut line = error.to_string();
-    for cause in error.chain().skip(1).map(ToString::to_string) {
-        if !line.ends_with(&cause) {
-            line = format!("{line}: {cause}");
-        }
-    }
-    line.replace(['\n', '\r'], " ")
-}
-
 /// Whether errors and help are coloured. `--color` is found before the command line is parsed, so that it also holds for errors of parsing.
 fn is_coloured(args: &[OsString], is_terminal: bool) -> bool {
     let words: Vec<&str> = args.iter().filter_map(|arg| arg.to_str()).collect();
@@ -119,6 +112,7 @@ fn command(cli: &Cli, shell: &mut Shell<'_>) -> anyhow::Result<()> {
         Command::Export(args) => export::run(cli, args, shell),
         Command::Info(args) => info::run(cli, args, shell),
         Command::Lookup(args) => lookup::run(cli, args, shell),
+        Command::View(args) => view::run(cli, args, shell),
         Command::Recipes(args) => listing::recipes(cli, args, shell),
         Command::Scenes => listing::scenes(cli, shell),
         Command::Generate(args) => generate::run(args),

@@ -2,8 +2,9 @@
 
 use crate::args::{Cli, Format, RenderArgs};
 use crate::draws::{Draws, Keep};
+use crate::lights::Lamp;
 use crate::report::Line;
-use crate::shadow::{frame, options};
+use crate::shadow::{frame, options, rays};
 use crate::shell::{Shell, Usage};
 use crate::stage::Stage;
 use crate::takes::Take;
@@ -12,7 +13,8 @@ use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use umbrage_io::{encode_exr, encode_png};
-use umbrage_render::picture;
+use umbrage_oracle::Geometry;
+use umbrage_render::{Frame, Picture, picture_where};
 use umbrage_shadow::{Shadow, Unshadowed};
 
 pub fn run(cli: &Cli, args: &RenderArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {
@@ -58,6 +60,7 @@ impl Draws for Render<'_> {
         let mut all = options(self.cli, &self.args.scene)?;
         all.insert("samples".into(), json!(self.args.samples));
         all.insert("format".into(), json!(self.format.extension()));
+        all.insert("truth".into(), json!(self.args.truth));
         Ok(all)
     }
 
@@ -81,41 +84,82 @@ impl Draws for Render<'_> {
         keep: &mut Keep<'_>,
         shell: &mut Shell<'_>,
     ) -> anyhow::Result<Vec<Line>> {
-        // A light that is not wanted is out.
         if !self.args.scene.light.is_empty() {
-            let wanted: Vec<usize> = stage.lamps.iter().map(|lamp| lamp.light).collect();
-            let mut index = 0..;
-            stage.scene.lights.retain(|_| index.next().is_some_and(|index| wanted.contains(&index)));
-            stage.lamps.iter_mut().zip(0..).for_each(|(lamp, light)| lamp.light = light);
+            keep_wanted(&mut stage);
         }
         let start = Instant::now();
         let progress = shell.progress(stage.lamps.len() + 1);
+        let geometry = self.args.truth.then(|| Geometry::new(&stage.scene, &stage.scene.camera));
+        let frame = frame(self.args.samples, self.cli.seed, take.frame);
+        let frame = Frame { every_sample: self.args.truth, ..frame };
         let made = stage.lamps.iter().map(|lamp| {
             progress.set_message(format!("{}{}", take.label, lamp.name));
-            let made = lamp::shadow_of(&stage, lamp, &stage.recipe_of(lamp)?)?;
+            let made = match &geometry {
+                Some(geometry) => {
+                    Light { recipe: "rays".into(), bytes: 0, shadow: rays(&stage, lamp, geometry, None, &frame) }
+                }
+                None => Light::new(&stage, lamp)?,
+            };
             progress.inc(1);
             Ok(made)
         });
         let made = made.collect::<anyhow::Result<Vec<_>>>()?;
         let baked = start.elapsed();
-        let shadows: Vec<&dyn Shadow> = (0..stage.scene.lights.len())
-            .map(|light| match stage.lamps.iter().position(|lamp| lamp.light == light) {
-                Some(index) => &*made[index].shadow,
-                None => &Unshadowed as &dyn Shadow,
-            })
-            .collect();
         progress.set_message(format!("{}picture", take.label));
         let start = Instant::now();
-        let image = picture(&stage.scene, &shadows, &frame(self.args.samples, self.cli.seed, take.frame));
+        let shadows: Vec<&dyn Shadow> = made.iter().map(|light| &*light.shadow).collect();
+        let image = picture_by(&stage, &shadows, &frame, |_| true);
         let drawn = start.elapsed();
         drop(progress);
         let encode = if self.format == Format::Png { encode_png } else { encode_exr };
         keep(self.file(take, None), encode(image.size, &image.colour))?;
-        let lines = stage.lamps.iter().zip(&made).map(|(lamp, made)| {
-            let recipe = stage.recipe_of(lamp).map_or_else(|_| String::new(), |recipe| recipe.to_string());
-            let bytes = made.maps.iter().map(|map| map.bytes).sum();
-            Line { light: lamp.name.clone(), recipe, bytes, baked, looked_up: drawn }
+        let lines = stage.lamps.iter().zip(made).map(|(lamp, Light { recipe, bytes, .. })| Line {
+            light: lamp.name.clone(),
+            recipe,
+            bytes,
+            baked,
+            looked_up: drawn,
         });
         Ok(lines.collect())
     }
+}
+
+/// A light's shadow, and what is said of it.
+struct Light<'a> {
+    recipe: String,
+    bytes: usize,
+    shadow: Box<dyn Shadow + 'a>,
+}
+
+impl Light<'_> {
+    fn new(stage: &Stage, lamp: &Lamp) -> anyhow::Result<Self> {
+        let recipe = stage.recipe_of(lamp)?;
+        let made = lamp::shadow_of(stage, lamp, &recipe)?;
+        let bytes = made.maps.iter().map(|map| map.bytes).sum();
+        Ok(Self { recipe: recipe.to_string(), bytes, shadow: made.shadow })
+    }
+}
+
+/// Puts out all lights that are not wanted.
+pub fn keep_wanted(stage: &mut Stage) {
+    let wanted: Vec<usize> = stage.lamps.iter().map(|lamp| lamp.light).collect();
+    let mut index = 0..;
+    stage.scene.lights.retain(|_| index.next().is_some_and(|index| wanted.contains(&index)));
+    stage.lamps.iter_mut().zip(0..).for_each(|(lamp, light)| lamp.light = light);
+}
+
+/// The lit picture, with a shadow for each of the stage's lamps in their order; only pixels that `wanted` accepts by their index are drawn.
+pub fn picture_by(
+    stage: &Stage,
+    shadows: &[&dyn Shadow],
+    frame: &Frame,
+    wanted: impl Fn(u32) -> bool + Sync,
+) -> Picture {
+    let of_lights: Vec<&dyn Shadow> = (0..stage.scene.lights.len())
+        .map(|light| match stage.lamps.iter().position(|lamp| lamp.light == light) {
+            Some(index) => shadows[index],
+            None => &Unshadowed as &dyn Shadow,
+        })
+        .collect();
+    picture_where(&stage.scene, &of_lights, frame, wanted)
 }

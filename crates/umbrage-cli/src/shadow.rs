@@ -2,9 +2,10 @@
 
 use crate::args::{Cli, Format, SceneArgs, ShadowArgs, WindowArg};
 use crate::draws::{Draws, Keep};
+use crate::lights::Lamp;
 use crate::report::Line;
 use crate::shell::{Shell, Usage};
-use crate::stage::{self, Lamp, Stage};
+use crate::stage::{self, Stage};
 use crate::takes::Take;
 use crate::values::Area;
 use crate::{lamp, names, pictures};
@@ -17,7 +18,7 @@ use umbrage_io::{encode_exr_values, encode_png_values};
 use umbrage_oracle::{AreaLight, Geometry, RayCast, Truth};
 use umbrage_plane::{SurfacePoint, View};
 use umbrage_recipe::Recipe;
-use umbrage_render::{Frame, Picture, picture};
+use umbrage_render::{Frame, Picture, picture_where};
 use umbrage_sample::Key;
 use umbrage_scene::Scene;
 use umbrage_shadow::Shadow;
@@ -117,7 +118,7 @@ impl Draws for Shadows<'_> {
 /// # Errors
 /// A recipe that cannot be read.
 pub fn options(cli: &Cli, args: &SceneArgs) -> anyhow::Result<Map<String, Value>> {
-    let SceneArgs { size, map_size, recipe, light, camera, time, animation, frame: _ } = args;
+    let SceneArgs { size, map_size, recipe, light, turn_light, camera, time, animation, frame: _ } = args;
     // A recipe's file may change, and its text may be written in several ways.
     let recipe = recipe.as_deref().map(|text| stage::recipe(text, *map_size)).transpose()?;
     let options = [
@@ -126,6 +127,7 @@ pub fn options(cli: &Cli, args: &SceneArgs) -> anyhow::Result<Map<String, Value>
         ("map-size", json!(map_size)),
         ("recipe", json!(recipe.map(|recipe| recipe.to_string()))),
         ("light", json!(light)),
+        ("turn-light", json!(turn_light.iter().map(ToString::to_string).collect::<Vec<_>>())),
         ("camera", json!(camera)),
         ("time", json!(time)),
         ("animation", json!(animation)),
@@ -183,11 +185,22 @@ pub fn lit_alone(scene: &Scene, lamp: &Lamp, copies: usize) -> Scene {
 
 /// The picture under one light: the fraction in shadow of each pixel, once by each of several shadows of it.
 pub fn drawn(scene: &Scene, lamp: &Lamp, shadows: &[&dyn Shadow], frame: &Frame) -> Picture {
+    drawn_where(scene, lamp, shadows, frame, |_| true)
+}
+
+/// The same of the pixels that `wanted` accepts by their index.
+pub fn drawn_where(
+    scene: &Scene,
+    lamp: &Lamp,
+    shadows: &[&dyn Shadow],
+    frame: &Frame,
+    wanted: impl Fn(u32) -> bool + Sync,
+) -> Picture {
     let one = lit_alone(scene, lamp, shadows.len());
     let light = &scene.lights[lamp.light];
     let turned: Vec<Turned<'_>> = shadows.iter().map(|shadow| Turned { shadow: *shadow, light: &light.view }).collect();
     let turned: Vec<&dyn Shadow> = turned.iter().map(|turned| turned as &dyn Shadow).collect();
-    picture(&one, &turned, frame)
+    picture_where(&one, &turned, frame, wanted)
 }
 
 /// Rays toward a light, all of its area where it is given one.

@@ -1,16 +1,18 @@
 //! The scene that a command is about.
 
 use crate::args::SceneArgs;
+use crate::lights::{self, Lamp};
 use crate::memory::{self, Need};
 use crate::names;
 use crate::shell::{Shell, Usage};
+use crate::turns;
 use anyhow::{Context, anyhow};
 use glam::{DVec2, UVec2};
 use std::path::Path;
 use umbrage_gltf::{Level, ReadOptions};
 use umbrage_io::read_bytes;
 use umbrage_plane::{Projection, View, ViewError};
-use umbrage_recipe::Recipe;
+use umbrage_recipe::{Recipe, RecipeError};
 use umbrage_scene::{Scene, gallery};
 
 /// What stands before the name of a scene that is built in.
@@ -18,18 +20,6 @@ pub const GALLERY: &str = "gallery:";
 
 /// Rows of a picture whose size is not given.
 const HEIGHT: u32 = 512;
-
-/// A light of a scene, and the views in which it has maps.
-pub struct Lamp {
-    /// Which of the scene's lights it is.
-    pub light: usize,
-    /// Its name in names of files.
-    pub name: String,
-    /// The views that its maps have: one, or several that stand around it.
-    pub views: Vec<View>,
-    /// Its radius: world units, of a sun radians; 0 where it has none.
-    pub radius: f64,
-}
 
 /// A scene with its camera and maps as the command line wants them.
 pub struct Stage {
@@ -74,13 +64,15 @@ impl Stage {
         samples: u32,
         shell: &mut Shell<'_>,
     ) -> anyhow::Result<Self> {
-        let (scene, lamps) = match source.strip_prefix(GALLERY) {
+        let (mut scene, lamps) = match source.strip_prefix(GALLERY) {
             Some(name) => built_in(name, args)?,
             None => from_file(source, args, max_memory, shell)?,
         };
         let size = scene.camera.size();
         let recipe = args.recipe.as_deref().map(|text| recipe(text, args.map_size)).transpose()?;
-        let lamps = wanted(&scene, lamps, &args.light)?;
+        let mut lamps = casting(&scene, lamps);
+        turns::turn(&mut scene, &mut lamps, &args.turn_light)?;
+        let lamps = lights::wanted(&scene, lamps, &args.light)?;
         let casting = scene.lights.iter().filter(|light| light.casts).count();
         let triangles = scene.objects.iter().map(|object| match &object.shape {
             umbrage_scene::Shape::Mesh(mesh) => mesh.triangles.len() as u64,
@@ -141,7 +133,7 @@ impl Stage {
 }
 
 /// The camera with another size: what it sees from top to bottom stays, and its pixels keep their shape.
-fn sized(camera: &View, size: UVec2) -> Result<View, ViewError> {
+pub fn sized(camera: &View, size: UVec2) -> Result<View, ViewError> {
     let aspect = |size: UVec2| f64::from(size.x) / f64::from(size.y);
     let wider = aspect(size) / aspect(camera.size());
     let projection = match camera.projection() {
@@ -203,21 +195,14 @@ fn from_file(
     Ok((import.scene, import.lamps))
 }
 
-/// The lights that cast shadows, those of them that are named where any are.
-fn wanted(scene: &Scene, lamps: Vec<umbrage_gltf::Lamp>, wanted: &[String]) -> anyhow::Result<Vec<Lamp>> {
+/// The lights that cast shadows.
+fn casting(scene: &Scene, lamps: Vec<umbrage_gltf::Lamp>) -> Vec<Lamp> {
     let names = names::distinct(scene.lights.iter().map(|light| light.name.as_str()));
-    let is_called = |light: usize, name: &String| scene.lights[light].name == *name || names[light] == *name;
-    let casting: Vec<usize> = (0..scene.lights.len()).filter(|light| scene.lights[*light].casts).collect();
-    if let Some(unknown) = wanted.iter().find(|name| !casting.iter().any(|light| is_called(*light, name))) {
-        let known: Vec<&str> = casting.iter().map(|light| names[*light].as_str()).collect();
-        return Err(Usage(format!("--light {unknown:?}: the lights that cast shadows are {}", known.join(", "))).into());
-    }
     let lamp = |(light, lamp): (usize, umbrage_gltf::Lamp)| {
-        let is_wanted = wanted.is_empty() || wanted.iter().any(|name| is_called(light, name));
         let one = || Lamp { light, name: names[light].clone(), views: lamp.views, radius: lamp.radius };
-        (is_wanted && scene.lights[light].casts).then(one)
+        scene.lights[light].casts.then(one)
     };
-    Ok(lamps.into_iter().enumerate().filter_map(lamp).collect())
+    lamps.into_iter().enumerate().filter_map(lamp).collect()
 }
 
 /// A recipe as it is written, or as a TOML file holds it; `rsl,` and the parameters of that language's `shadow()` are one for maps of `map_size` texels a side.
@@ -229,12 +214,19 @@ pub fn recipe(text: &str, map_size: u32) -> anyhow::Result<Recipe> {
     const MOST_BYTES: u64 = 1 << 20;
     let path = Path::new(text);
     if path.extension().is_none_or(|extension| extension != "toml") {
-        let read = match text.strip_prefix("rsl,") {
-            Some(parameters) => Recipe::from_rsl(parameters, map_size),
-            None => text.parse(),
-        };
-        return read.map_err(|error| Usage(format!("--recipe: {error}")).into());
+        return recipe_text(text, map_size).map_err(|error| Usage(format!("--recipe: {error}")).into());
     }
     let text = String::from_utf8(read_bytes(path, MOST_BYTES)?).map_err(|_| anyhow!("{}: not text", path.display()))?;
     Recipe::from_toml(&text).with_context(|| path.display().to_string())
+}
+
+/// The same of text alone.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn recipe_text(text: &str, map_size: u32) -> Result<Recipe, RecipeError> {
+    match text.strip_prefix("rsl,") {
+        Some(parameters) => Recipe::from_rsl(parameters, map_size),
+        None => text.parse(),
+    }
 }

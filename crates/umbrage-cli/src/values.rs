@@ -1,7 +1,9 @@
 //! Values of the command line, read from text.
 
 use glam::UVec2;
+use std::fmt;
 use std::ops::RangeInclusive;
+use umbrage_scene::Bearing;
 
 /// Most pictures of one command line, and most shards of it: what a list of them takes stays small.
 pub const MOST_PICTURES: usize = 100_000;
@@ -32,6 +34,34 @@ impl Shard {
     pub fn draws(self, index: usize) -> bool {
         index % self.count == self.number - 1
     }
+}
+
+/// Where a light is turned to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TurnLight {
+    /// The light's name, or what it is called in names of files.
+    pub name: String,
+    /// From +x toward +z within a turn either way; elevations are from -90 to 90.
+    pub to: Bearing,
+}
+
+/// As [`turn_light`] reads it.
+impl fmt::Display for TurnLight {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={},{}", self.name, self.to.azimuth_deg, self.to.elevation_deg)
+    }
+}
+
+/// `NAME=AZIMUTH,ELEVATION`; a name may hold an equals sign.
+pub fn turn_light(text: &str) -> Result<TurnLight, String> {
+    let number = |text: &str, most: f64| text.trim().parse().ok().filter(|at: &f64| (-most..=most).contains(at));
+    let read = || {
+        let (name, angles) = text.rsplit_once('=')?;
+        let (azimuth, elevation) = angles.split_once(',')?;
+        let to = Bearing { azimuth_deg: number(azimuth, 360.0)?, elevation_deg: number(elevation, 90.0)? };
+        Some(TurnLight { name: name.into(), to })
+    };
+    read().ok_or_else(|| "expected NAME=AZIMUTH,ELEVATION, degrees from -360 to 360 and from -90 to 90".into())
 }
 
 pub fn size(text: &str) -> Result<UVec2, String> {

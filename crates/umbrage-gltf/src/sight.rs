@@ -102,11 +102,8 @@ impl<'a> Things<'a> {
         let (mut near, mut far) = (f64::INFINITY, 0.0_f64);
         for object in self.objects {
             far = object.shape.hull().fold(far, |far, at| far.max((at.as_dvec3() + from).length()));
-            let Shape::Mesh(mesh) = &object.shape else { continue };
-            for triangle in (0..mesh.triangles.len()).filter(|_| object.casts) {
-                let [a, b, c] = mesh.corners(triangle).map(|at| at.as_dvec3() + from);
-                let nearest = DVec3::ZERO.clamp(a.min(b).min(c), a.max(b).max(c));
-                near = near.min(nearest.length());
+            if object.casts && matches!(object.shape, Shape::Mesh(_)) {
+                near = near.min(object.shape.nearest(-from));
             }
         }
         [near, far]

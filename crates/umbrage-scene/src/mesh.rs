@@ -3,8 +3,8 @@ use std::collections::HashMap;
 
 /// Triangles with shading normals. Vertices on a crease are doubled with equal positions.
 ///
-/// Constructors: [`Mesh::sphere`], [`Mesh::cuboid`], [`Mesh::cylinder`], [`Mesh::torus`], [`Mesh::lathe`] and
-/// [`Mesh::tube`] are closed, [`Mesh::sheet`] is open.
+/// Constructors: [`Mesh::sphere`], [`Mesh::cuboid`], [`Mesh::cylinder`], [`Mesh::torus`], [`Mesh::knot`],
+/// [`Mesh::lathe`] and [`Mesh::tube`] are closed, [`Mesh::sheet`] is open.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// World-space positions.

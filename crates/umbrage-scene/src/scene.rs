@@ -33,6 +33,25 @@ impl Shape {
         vertices.iter().copied().chain(patches.iter().flat_map(|patch| patch.control.into_iter().flatten()))
     }
 
+    /// At least as near to a place, relative to [`Scene::origin`], as any triangle, by boxes around them, or as any patch; world units, +∞ where there is none.
+    pub fn nearest(&self, place: DVec3) -> f64 {
+        let distance = |corners: &[Vec3]| {
+            let first = corners.first().map_or(DVec3::INFINITY, |at| at.as_dvec3() - place);
+            let around = corners.iter().map(|at| at.as_dvec3() - place);
+            let (low, high) = around.fold((first, first), |(low, high), at| (low.min(at), high.max(at)));
+            DVec3::ZERO.clamp(low, high).length()
+        };
+        match self {
+            Self::Mesh(mesh) => {
+                let triangles = (0..mesh.triangles.len()).map(|triangle| distance(&mesh.corners(triangle)));
+                triangles.fold(f64::INFINITY, f64::min)
+            }
+            Self::Patches(patches) => {
+                patches.iter().map(|patch| distance(patch.control.as_flattened())).fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
+
     /// Multiplies all positions, rounding each once.
     fn scale(&mut self, factor: f64) {
         let scale = |at: &mut Vec3| *at = (at.as_dvec3() * factor).as_vec3();

@@ -14,7 +14,8 @@ struct Rule {
 }
 
 const EVERY: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-io"];
-const COMMAND: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-report", "umbrage-gltf", "umbrage-engines"];
+const COMMAND: &[&str] =
+    &["umbrage-render", "umbrage-oracle", "umbrage-report", "umbrage-gltf", "umbrage-engines", "umbrage-view"];
 const FIGURES: &[&str] = &["umbrage-render", "umbrage-oracle", "umbrage-report", "umbrage-engines"];
 const PROPERTIES: &[&str] = &["proptest"];
 
@@ -92,6 +93,12 @@ const RULES: &[Rule] = &[
         package: "umbrage-report",
         arrows: &["umbrage-io"],
         outside: &["anyhow", "glam", "indicatif", "rayon", "serde", "serde_json"],
+        tests: &[],
+    },
+    Rule {
+        package: "umbrage-view",
+        arrows: &[],
+        outside: &["form_urlencoded", "getrandom", "http-body-util", "hyper", "hyper-util", "thiserror", "tokio"],
         tests: &[],
     },
     Rule { package: "umbrage-figures", arrows: FIGURES, outside: &["anyhow", "clap", "glam", "rayon"], tests: &[] },

@@ -1,9 +1,10 @@
 //! Maps that do not fit in memory, baked to disk in bands.
 
 use crate::args::{BakeArgs, Cli, RuleArg};
+use crate::lights::Lamp;
 use crate::report::Line;
 use crate::shell::Shell;
-use crate::stage::{Lamp, Stage};
+use crate::stage::Stage;
 use std::path::Path;
 use std::time::Instant;
 use umbrage_bake::{Streamed, Streaming, bake_streamed};

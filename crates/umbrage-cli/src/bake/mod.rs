@@ -3,10 +3,11 @@
 mod bands;
 
 use crate::args::{BakeArgs, Cli, RuleArg};
+use crate::lights::Lamp;
 use crate::names;
 use crate::report::{Line, report};
 use crate::shell::{Shell, Usage};
-use crate::stage::{Lamp, Stage};
+use crate::stage::Stage;
 use anyhow::Context;
 use bands::Bands;
 use std::time::{Duration, Instant};

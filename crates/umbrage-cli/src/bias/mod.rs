@@ -6,10 +6,11 @@ mod found;
 pub use found::short;
 
 use crate::args::{BiasArgs, Cli};
+use crate::lights::Lamp;
 use crate::names;
 use crate::shadow::lit_alone;
 use crate::shell::{Shell, Usage};
-use crate::stage::{Lamp, Stage};
+use crate::stage::Stage;
 use anyhow::Context;
 use engines::translated;
 use found::{Found, Tried};

@@ -8,11 +8,12 @@ mod timed;
 use crate::args::{Cli, SceneArgs, WindowArg};
 use crate::compare_args::CompareArgs;
 use crate::lamp;
+use crate::lights::Lamp;
 use crate::memory::Need;
 use crate::scores::{Made, Row, limits};
 use crate::shadow::{self, Turned};
 use crate::shell::{Exceeded, Shell, Usage};
-use crate::stage::{self, Lamp, Stage};
+use crate::stage::{self, Stage};
 use pages::Truth;
 use serde_json::json;
 use std::time::Instant;
@@ -133,6 +134,7 @@ fn scene_args(args: &CompareArgs) -> SceneArgs {
         map_size: args.map_size[0],
         recipe: None,
         light: args.light.clone(),
+        turn_light: args.turn_light.clone(),
         camera: args.camera.clone(),
         time: args.time,
         animation: args.animation.clone(),

@@ -1,11 +1,11 @@
 //! The page of a comparison: results beside truth, heat maps, and the numbers.
 
 use super::table;
+use crate::paint::{self, FAULTS};
 use crate::scores::{Limits, NUMBERS, Row, SHOWN};
-use glam::{UVec2, Vec3};
+use glam::UVec2;
 use std::path::{Path, PathBuf};
 use umbrage_oracle::heat;
-use umbrage_oracle::judge::Where;
 use umbrage_report::{Heading, Made, Measure, Panel, Role, Table, Words, show};
 
 /// Truth of a light.
@@ -16,15 +16,6 @@ pub struct Truth {
     /// Which pixels are judged.
     pub judged: Vec<bool>,
 }
-
-/// Colours of the faults, linear RGB, with their names and what the legend calls the colours. They are of different brightness, too.
-const FAULTS: [(&str, &str, Vec3); 5] = [
-    ("acne", "orange", Vec3::new(1.0, 0.3, 0.0)),
-    ("detachment", "cyan", Vec3::new(0.0, 0.75, 1.0)),
-    ("leak", "magenta", Vec3::new(0.9, 0.0, 0.6)),
-    ("other false shadow", "brown", Vec3::new(0.25, 0.07, 0.01)),
-    ("other false light", "blue", Vec3::new(0.02, 0.06, 0.5)),
-];
 
 /// Writes the page and all that it shows into a folder, and returns the names of the files that people look at.
 ///
@@ -70,7 +61,12 @@ fn figure(scene: &str, size: UVec2, truth: &Truth, rows: &[Row], limits: Option<
             None => row.what.clone(),
         };
         let mut result = shadow(&name, &caption, size, &row.shadow).against("truth");
-        let mut faults = Panel::rgb(&format!("{name} faults"), &format!("{caption}: faults"), size, faults(row, truth));
+        let mut faults = Panel::rgb(
+            &format!("{name} faults"),
+            &format!("{caption}: faults"),
+            size,
+            paint::all(&row.score.places, &truth.judged, &truth.shadow),
+        );
         faults = faults.role(Role::Error);
         for number in &NUMBERS[..SHOWN] {
             let Some(value) = (number.of)(row) else { continue };
@@ -81,7 +77,7 @@ fn figure(scene: &str, size: UVec2, truth: &Truth, rows: &[Row], limits: Option<
             }
         }
         for (at, (name, colour, _)) in FAULTS.iter().enumerate().skip(3) {
-            let count = kinds(&row.score.places).filter(|kind| *kind == Some(at)).count();
+            let count = paint::kinds(&row.score.places).filter(|kind| *kind == Some(at)).count();
             let share = NUMBERS[1].text(count as f64 / judged.max(1) as f64);
             faults = faults.with(name, format!("{share}, {colour}"));
         }
@@ -111,29 +107,4 @@ fn figure(scene: &str, size: UVec2, truth: &Truth, rows: &[Row], limits: Option<
 /// A shadow as one looks at it: light where lit.
 fn shadow(name: &str, caption: &str, size: UVec2, shadow: &[f32]) -> Panel {
     Panel::grey(name, caption, size, shadow.iter().map(|shadow| 1.0 - shadow).collect())
-}
-
-/// The fault of each pixel, as its place in [`FAULTS`].
-fn kinds(places: &Where) -> impl Iterator<Item = Option<usize>> + '_ {
-    let marked = |mask: &Option<Vec<bool>>, pixel: usize| mask.as_ref().is_some_and(|mask| mask[pixel]);
-    (0..places.acne.len()).map(move |pixel| {
-        let faults = [
-            places.acne[pixel],
-            marked(&places.detachment, pixel),
-            marked(&places.leak, pixel),
-            places.false_shadow[pixel],
-            places.false_light[pixel],
-        ];
-        faults.iter().position(|fault| *fault)
-    })
-}
-
-/// Truth in dim greys, with the faults in colours.
-fn faults(row: &Row, truth: &Truth) -> Vec<Vec3> {
-    let pixel = |(pixel, fault): (usize, Option<usize>)| {
-        let lit = 0.08 + 0.3 * (1.0 - truth.shadow[pixel].clamp(0.0, 1.0));
-        let plain = Vec3::splat(if truth.judged[pixel] { lit } else { 0.4 * lit });
-        fault.map_or(plain, |fault| FAULTS[fault].2)
-    };
-    kinds(&row.score.places).enumerate().map(pixel).collect()
 }

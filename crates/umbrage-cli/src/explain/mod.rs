@@ -9,13 +9,15 @@ mod words;
 
 use crate::args::{Cli, ExplainArgs};
 use crate::lamp;
+use crate::lights::Lamp;
 use crate::shadow::{self, Turned};
 use crate::shell::{Shell, Usage};
-use crate::stage::{Lamp, Stage};
+use crate::stage::Stage;
 use anyhow::Context;
 use asked::{Asked, Recorder};
+pub use fault::Fault;
 use owners::Owners;
-use region::Region;
+pub use region::Region;
 use serde_json::json;
 use std::cell::OnceCell;
 use umbrage_io::write_bytes;
@@ -24,7 +26,7 @@ use umbrage_plane::TexelRect;
 use umbrage_recipe::Recipe;
 use umbrage_render::{Frame, picture_where};
 use umbrage_shadow::{Explanation, Shadow};
-use words::Words;
+pub use words::Words;
 
 pub fn run(cli: &Cli, args: &ExplainArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {
     let stage = Stage::new(&args.source, &args.scene, cli.max_memory, args.samples, shell)?;
@@ -43,7 +45,7 @@ pub fn run(cli: &Cli, args: &ExplainArgs, shell: &mut Shell<'_>) -> anyhow::Resu
         let recipe = stage.recipe_of(lamp)?;
         let shadow = lamp::shadow_of(&stage, lamp, &recipe)?.shadow;
         let frame = shadow::frame(args.samples, cli.seed, args.scene.frame);
-        let light = Lit { stage: &stage, lamp, recipe, shadow, unbiased: OnceCell::new(), frame, geometry: &geometry };
+        let light = Lit::new(&stage, lamp, &recipe, &*shadow, frame, &geometry);
         for &at in &args.pixel {
             let words = light.explained(at)?;
             if let Some(path) = &args.output {
@@ -64,21 +66,37 @@ pub fn run(cli: &Cli, args: &ExplainArgs, shell: &mut Shell<'_>) -> anyhow::Resu
 }
 
 /// A light whose shadow is explained.
-struct Lit<'a> {
+pub struct Lit<'a> {
     stage: &'a Stage,
     lamp: &'a Lamp,
     recipe: Recipe,
-    shadow: Box<dyn Shadow>,
+    shadow: &'a dyn Shadow,
     /// The same without a bias, once it is wanted; `None` for a recipe that has none.
     unbiased: OnceCell<Option<Box<dyn Shadow>>>,
     frame: Frame,
     geometry: &'a Geometry,
 }
 
-impl Lit<'_> {
-    fn explained(&self, at: [u32; 2]) -> anyhow::Result<Words<'_>> {
+impl<'a> Lit<'a> {
+    /// A lamp of a stage under a recipe's shadow, seen by a frame.
+    pub fn new(
+        stage: &'a Stage,
+        lamp: &'a Lamp,
+        recipe: &Recipe,
+        shadow: &'a dyn Shadow,
+        frame: Frame,
+        geometry: &'a Geometry,
+    ) -> Self {
+        Self { stage, lamp, recipe: *recipe, shadow, unbiased: OnceCell::new(), frame, geometry }
+    }
+
+    /// All that is to say of a pixel inside the picture.
+    ///
+    /// # Errors
+    /// A recipe that cannot be used without its bias.
+    pub fn explained(&self, at: [u32; 2]) -> anyhow::Result<Words<'_>> {
         let index = at[1] * self.stage.scene.camera.size().x + at[0];
-        let recorder = Recorder::new(&*self.shadow);
+        let recorder = Recorder::new(self.shadow);
         let value = self.pixel(&recorder, &self.frame, index);
         let truth = self.pixel(&*self.rays(), &Frame { every_sample: true, ..self.frame }, index);
         let regions = recorder.asked()?.iter().map(|asked| self.region(asked)).collect::<anyhow::Result<_>>()?;

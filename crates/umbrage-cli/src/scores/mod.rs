@@ -4,4 +4,4 @@ mod limits;
 mod row;
 
 pub use limits::{Limits, limits};
-pub use row::{Made, NUMBERS, Number, Row, SHOWN};
+pub use row::{Made, NUMBERS, Number, Row, SHOWN, rounded};

@@ -108,6 +108,6 @@ impl Number {
 }
 
 /// Four digits behind the point at most, more for what would be nothing with them.
-fn rounded(value: f64) -> String {
+pub fn rounded(value: f64) -> String {
     if value != 0.0 && value.abs() < 1e-3 { format!("{value:.2e}") } else { format!("{}", (value * 1e4).round() / 1e4) }
 }

@@ -2,6 +2,7 @@
 
 mod bad_luck;
 mod biases;
+mod browser;
 mod commands;
 mod compare;
 mod examples;
@@ -10,7 +11,9 @@ mod file_names;
 mod lamps;
 mod lookups;
 mod maps;
+mod pages;
 mod scenes;
 mod shards;
 mod templates;
 mod typed;
+mod web_driver;

@@ -18,6 +18,7 @@ mod hall;
 mod interior;
 mod kind;
 mod kinds;
+mod knot;
 mod lamp;
 mod marched;
 mod moving_ball;
@@ -50,6 +51,7 @@ pub use four_spheres::{four_spheres, four_spheres_lit_from};
 pub use glass_pane::glass_pane;
 pub use interior::interior;
 pub use kinds::{city, fence, gears, hair, letters, louvres, pergola, stairs, wheels};
+pub use knot::knot;
 pub use moving_ball::moving_ball;
 pub use pipes::{pipe_segments, pipes};
 pub use plant::{BLADES, plant};
@@ -133,6 +135,7 @@ pub const ALL: &[(&str, Make)] = &[
     ("contacts-2", || contacts(1)),
     ("scan", || scan(0)),
     ("scan-2", || scan(1)),
+    ("knot", knot),
 ];
 
 /// How many bicubic patches a scene has.

@@ -11,3 +11,4 @@ mod reconstructions;
 mod rolling;
 mod textures;
 mod trees;
+mod turns;

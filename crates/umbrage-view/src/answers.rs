@@ -1,0 +1,71 @@
+//! What a server asks of whoever draws.
+
+use crate::{Ask, State};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whoever draws for the page. All may be called from any thread, [`picture`](Self::picture) and [`explanation`](Self::explanation) from two at once.
+pub trait Answers: Send + Sync + 'static {
+    /// What the page has to know before it asks anything: JSON that it reads once.
+    fn about(&self) -> String;
+
+    /// The command lines that draw what a state shows, as JSON. Comes back at once.
+    ///
+    /// # Errors
+    /// [`Refusal::Wrong`] for a state that makes no sense.
+    fn lines(&self, state: &State) -> Result<String, Refusal>;
+
+    /// A picture.
+    ///
+    /// # Errors
+    /// [`Refusal`].
+    fn picture(&self, ask: &Ask, stop: &Stop) -> Result<Picture, Refusal>;
+
+    /// Why the state's pixel is as it is, as JSON.
+    ///
+    /// # Errors
+    /// [`Refusal`].
+    fn explanation(&self, state: &State, stop: &Stop) -> Result<String, Refusal>;
+}
+
+/// A picture for the page.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Picture {
+    /// The bytes of a PNG file.
+    pub png: Vec<u8>,
+    /// What is said of it: JSON in one line of printable ASCII.
+    pub about: String,
+}
+
+/// Why there is no answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Refusal {
+    /// What was asked makes no sense, or cannot be had: a line that says why.
+    Wrong(String),
+    /// [`Stop`] was set.
+    Stopped,
+}
+
+/// Set once nobody waits for an answer any more. Whoever draws looks at it often.
+#[derive(Clone, Debug, Default)]
+pub struct Stop(Arc<AtomicBool>);
+
+impl Stop {
+    /// Says that nobody waits.
+    pub fn set(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether nobody waits.
+    pub fn is_set(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+
+    /// Nothing while somebody waits.
+    ///
+    /// # Errors
+    /// [`Refusal::Stopped`].
+    pub fn check(&self) -> Result<(), Refusal> {
+        if self.is_set() { Err(Refusal::Stopped) } else { Ok(()) }
+    }
+}
