@@ -7,7 +7,10 @@ pub const QUESTIONS: &[(&str, &[&str])] = &[
         &["W92-F1", "WM94-F2", "R87-F9", "U-acne", "U-faults"],
     ),
     ("Why is the shadow detached from what casts it?", &["WM94-F3", "WM94-F4", "U-faults", "U-bias"]),
-    ("Which bias do I need, and what does my engine's default do?", &["U-acne", "U-bias", "WM94-pcfbias", "R87-F9"]),
+    (
+        "Which bias do I need, and what does my engine's default do?",
+        &["U-acne", "U-bias", "U-offsets", "WM94-pcfbias", "R87-F9"],
+    ),
     ("Can I do without a bias?", &["U-auto", "W92-F3", "WM94-F5", "WM94-F6", "B06-I75"]),
     ("Why does light leak in where things touch or are thin?", &["WM94-F7", "WM94-F12", "U-presets", "U-auto-where"]),
     ("Why are the shadow's edges jagged?", &["R87-F6", "R87-F2", "U-auto"]),

@@ -14,6 +14,7 @@ pub const OFFSETS: Figure = Figure {
     paper: Paper::Umbrage,
     title: "Slope-scaled biases and normal offsets, by their amount",
     claim: "Both end false shadow at an amount that follows from the filter's width alone, whatever the slope, where a constant bias has none; and both take light under what stands there.",
+    look: "where each curve of false shadow ends: at the same amount on every slope, but for the constant bias.",
     make: offsets,
 };
 
