@@ -1,6 +1,15 @@
 //! The `umbrage` command as a function, so that tests can call it: [`run`].
 //!
-//! Each command is a few calls that a user of the libraries could make.
+//! ```text
+//! cargo install umbrage-cli
+//!
+//! umbrage render room.glb -o room.png      the lit picture
+//! umbrage shadow room.glb -o shadows       the fraction in shadow alone, one file for each light
+//! umbrage compare room.glb -o compared     every method beside rays, each fault by name
+//! umbrage help                             the other commands
+//! ```
+//!
+//! Each command is a few calls that a user of the libraries could make. This crate has no other interface and no features.
 
 mod args;
 mod bake;

@@ -717,7 +717,7 @@ pub const FIELDS: &[Field] = &[
     ),
 ];
 
-/// `ResFactor` and least half-extent of a named neighbourhood (WM94-6).
+/// `ResFactor` and least half-extent of a named neighbourhood (Wang & Molnar 1994).
 fn nearby(text: &str) -> Option<(f32, f32)> {
     match text {
         "four" => Some((0.0, 1.0)),

@@ -15,6 +15,8 @@
 //! ```
 //!
 //! A filter made by hand is put over a map by [`bind`]. The [guide] leads from a renderer to shadows, by this crate and those below it.
+//!
+//! The [conventions](umbrage_plane#conventions) are those of `umbrage-plane`. This crate knows no scene and opens no file. It has no features.
 
 mod bake;
 mod bind;

@@ -16,7 +16,7 @@ pub struct Explanation {
     /// The questions that were asked of the map, in their order: one for percentage closer, two where a second test was needed, a search and a
     /// look-up for soft shadows.
     pub questions: Vec<Question>,
-    /// Whether the receiver was compared on its tangent plane (WM94-15).
+    /// Whether the receiver was compared on its tangent plane (Wang & Molnar 1994).
     pub on_plane: bool,
     /// Over maps of facets, each place that was asked about and what the samples around it say.
     pub places: Vec<PlaceJudged>,

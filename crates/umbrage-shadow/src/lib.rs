@@ -23,8 +23,16 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Conventions: 1 is dark (`shadow`), equality is lit, a sample outside the map answers by the view's
-//! [`Rules`](umbrage_plane::Rules). This crate draws nothing and opens no file.
+//! [`presets`] has the algorithms of the papers, each with its limits, and [`presets::auto`], which needs no bias. For a light in
+//! all directions there are [`Around`] and [`LatLong`], for casters that let light pass the deep maps of `umbrage-depth`, for a light
+//! with a size [`Soft`], or [`Mean`] over several maps. A filter of your own is one function of a [`Query`].
+//!
+//! The [conventions](umbrage_plane#conventions) are those of `umbrage-plane`: 1 is dark, equality is lit, and a sample outside the map
+//! answers by the view's [`Rules`](umbrage_plane::Rules). This crate draws nothing and opens no file.
+//!
+//! # Features
+//!
+//! * `rayon`: large batches of points are split over the threads of the current pool; the answers are the same bits. Off unless chosen.
 
 #![warn(missing_debug_implementations)]
 

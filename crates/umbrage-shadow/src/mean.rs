@@ -3,7 +3,7 @@ use umbrage_plane::Footprint;
 use umbrage_sample::{Key, Pattern, Tap, each_tap};
 
 /// The weighted mean over a region of anything that can be computed at a tap: the order of *transform, then filter*
-/// that percentage-closer filtering is one case of (Reeves 1987, §6; R87-9, R87-26).
+/// that percentage-closer filtering is one case of (Reeves 1987, §6).
 ///
 /// [`Pcf`](crate::Pcf) is this with `f` = "is the texel nearer?", with its ranges and its SIMD. For transforms of what a map stores see
 /// [`Query::each`](crate::Query::each), which knows the rules outside the map.

@@ -83,7 +83,7 @@ pub fn auto() -> Preset<DualPlane> {
     Preset { name: "auto", filter: DualPlane::default(), expects: &[Stored::First] }
 }
 
-/// Williams 1978: nearest texel, no dither, two quanta of 16-bit depth (W78-2, W78-11, W78-12).
+/// Williams 1978: nearest texel, no dither, two quanta of 16-bit depth.
 ///
 /// The bias is a fraction of the range from near to far plane in screen depth, two steps of 16 bits, in whatever kind of depth the map
 /// is: it grows with the square of the distance, and suits a range that closely holds the scene. The historical size is 512² in both
@@ -92,7 +92,7 @@ pub fn williams78() -> Preset<Williams> {
     Preset { name: "williams78", filter: Williams::default(), expects: &[Stored::First] }
 }
 
-/// Reeves, Salesin & Cook 1987 as their listing sets the parameters (R87-12; the `fig4` preset of E-R18).
+/// Reeves, Salesin & Cook 1987 as their listing sets the parameters (Fig. 4).
 ///
 /// The bias, drawn from .3 to .4, is in world units, for scenes of about 100 units: multiply it by the size of yours. It is wider than
 /// some contacts, where light leaks, and too small for the steep texels of a low light.
@@ -100,21 +100,21 @@ pub fn reeves87() -> Preset<Pcf> {
     Preset { name: "reeves87", filter: Pcf::default(), expects: &[Stored::First] }
 }
 
-/// Reeves' advice in the text: at least two samples on each axis, from at least four texels (R87-12, E-R18). The bias is that of [`reeves87`].
+/// Reeves' advice in the text: at least two samples on each axis, from at least four texels. The bias is that of [`reeves87`].
 pub fn reeves87_recommended() -> Preset<Pcf> {
     let filter = Pcf::default().with_pattern(Jittered::default().with_min_samples(2)).with_min_size(1.0);
     Preset { name: "reeves87-recommended", filter, expects: &[Stored::First] }
 }
 
-/// The ordinary depth buffer of Reeves' Figure 6a: one sample at the centre, no jitter, nearest texel (R87-15).
+/// The ordinary depth buffer of Reeves' Figure 6a: one sample at the centre, no jitter, nearest texel.
 pub fn ordinary(bias: Bias) -> Preset<Pcf<Centre>> {
     let one = Pcf::default().with_pattern(Centre).with_depth(Biased::constant(bias));
     Preset { name: "ordinary", filter: one.with_res_factor(0.0).with_min_size(0.0), expects: &[Stored::First] }
 }
 
-/// Woo 1992: the listing of 1987 without any bias, over a map of midpoints (W92-3, W92-5, W92-8).
+/// Woo 1992: the listing of 1987 without any bias, over a map of midpoints.
 ///
-/// Meant for a spot light with [`Rules::SPOT`](umbrage_plane::Rules::SPOT), which are Woo's rule of the cone (W92-6); the paper's map is 256²
+/// Meant for a spot light with [`Rules::SPOT`](umbrage_plane::Rules::SPOT), which are Woo's rule of the cone; the paper's map is 256²
 /// under 75°. Solids thinner than a texel's own step of depth shadow themselves, and so does whatever another surface lies close
 /// behind: a rug on a floor, a floor that is drawn twice, boxes that touch along a seam.
 pub fn woo92() -> Preset<Pcf> {
@@ -122,15 +122,14 @@ pub fn woo92() -> Preset<Pcf> {
     Preset { name: "woo92", filter, expects: &[Stored::Midpoint] }
 }
 
-/// Wang & Molnar 1994: the nearest four texels of a map of second surfaces, the tangent plane where they disagree, no bias (WM94-5 to
-/// WM94-15).
+/// Wang & Molnar 1994: the nearest four texels of a map of second surfaces, the tangent plane where they disagree, no bias.
 ///
 /// Needs closed solids, or sheets that are flagged as such. Back faces are second surfaces where solids do not reach into each other.
 pub fn wang_molnar94() -> Preset<Conditional> {
     Preset { name: "wang-molnar94", filter: Conditional::default(), expects: &[Stored::BackFace, Stored::Second] }
 }
 
-/// Burley 2006: soft shadows from one map with the bias cone (B06-1 to B06-8).
+/// Burley 2006: soft shadows from one map with the bias cone.
 ///
 /// The cone's slope of 2 is free of false shadow up to a tilt of 63.4° between surface and light; steeper surfaces shadow themselves. Its
 /// bias grows with the distance that is looked at, so that wide filters lose low occluders.
@@ -138,7 +137,7 @@ pub fn burley() -> Preset<Soft> {
     Preset { name: "burley", filter: Soft::default(), expects: &[Stored::First] }
 }
 
-/// Fernando 2005, as Burley describes it: search taps spread evenly, their plain mean, a constant bias (B06-9).
+/// Fernando 2005, as Burley describes it: search taps spread evenly, their plain mean, a constant bias.
 pub fn fernando(bias: Bias) -> Preset<Soft<Biased>> {
     let search = Disc::default().with_density(Density::Uniform);
     let soft = Soft::default().with_search(search).with_falloff(OccluderFalloff::Flat);

@@ -94,7 +94,7 @@ pub trait Probe {
     fn looked(&mut self, texels: u32) {
         let _ = texels;
     }
-    /// A region that was compared on its tangent plane (WM94-15).
+    /// A region that was compared on its tangent plane (Wang & Molnar 1994).
     #[inline(always)]
     fn virtual_sampled(&mut self) {}
     /// A place of a region over a map of facets: what the samples around it say, and why it is lit or dark. Told only when [`Probe::EXPLAINS`].
@@ -110,7 +110,7 @@ pub trait Probe {
     fn tapped(&mut self, tap: &TapJudged) {
         let _ = tap;
     }
-    /// A comparison by whole units first; `conclusive` when they settled it (W92-7).
+    /// A comparison by whole units first; `conclusive` when they settled it (Woo 1992).
     #[inline(always)]
     fn compared(&mut self, conclusive: bool) {
         let _ = conclusive;
@@ -119,7 +119,7 @@ pub trait Probe {
 
 impl Probe for () {}
 
-/// Counts of what filters did (spec X-6).
+/// Counts of what filters did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
     /// Receivers answered by their place.

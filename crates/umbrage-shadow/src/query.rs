@@ -188,7 +188,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
 
     /// The fraction of a region's taps that are in shadow, weights included; 0 where there is no tap.
     ///
-    /// Taps outside the map or the cone answer by the view's rules (C-10), texels of deep maps by what passes them (B06-11).
+    /// Taps outside the map or the cone answer by the view's rules, texels of deep maps by what passes them (Burley 2006).
     #[inline(always)]
     pub fn share(&mut self, region: &Footprint, pattern: &impl Pattern, depth: &impl ReceiverDepth) -> f32 {
         self.share_by(region, pattern, depth, nearer)
@@ -462,7 +462,7 @@ impl Passing<'_> {
     }
 }
 
-/// The hits of a batch of taps with those outside the map or the cone answered by the view's rules (spec C-10, W92-6). Few regions reach
+/// The hits of a batch of taps with those outside the map or the cone answered by the view's rules (Woo 1992). Few regions reach
 /// out, so that this stands apart from the loop around it, which is compiled many times.
 #[inline(never)]
 fn by_rules<S: Simd>(view: &View, taps: &Taps<S>, mut nearer: u32) -> u32 {

@@ -1,4 +1,4 @@
-//! Burley's note of 2006 on the bias cone and on soft shadows (errata E-B1 to E-B9).
+//! Burley's note of 2006 on the bias cone and on soft shadows.
 
 use glam::{IVec2, Vec2, Vec3};
 use umbrage_depth::DepthMap;
@@ -7,11 +7,11 @@ use umbrage_sample::hammersley;
 /// The listing's parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BurleyListing {
-    /// `baseBias`, added to the receiver's depth: a negative one moves it toward the light (E-B1).
+    /// `baseBias`, added to the receiver's depth: a negative one moves it toward the light.
     pub base: f32,
-    /// `biasSlope`, depth per unit of the map; the note sets it to 1 (E-B5, E-B6).
+    /// `biasSlope`, depth per unit of the map; the note sets it to 1.
     pub slope: f32,
-    /// Samples of each pass; the listing does not say how many (E-B7).
+    /// Samples of each pass; the listing does not say how many.
     pub samples: u32,
 }
 
@@ -23,13 +23,13 @@ impl Default for BurleyListing {
 }
 
 impl BurleyListing {
-    /// `sample.z`: the receiver's depth *plus* the bias, so that a positive bias shadows more, not less (E-B1, V62).
+    /// `sample.z`: the receiver's depth *plus* the bias, so that a positive bias shadows more, not less.
     pub fn compared(&self, depth: f32, radius: f32) -> f32 {
         depth + self.base + self.slope * radius
     }
 
     /// Samples around a point of the map, within `radius` texels; radius by `shape` of the second Hammersley number. Without rotation and
-    /// offset, the first lies on the point itself (E-B8).
+    /// offset, the first lies on the point itself.
     fn around<'a, M: DepthMap>(
         &'a self,
         map: &'a M,
@@ -56,7 +56,7 @@ pub struct Sample {
     pub depth: f32,
 }
 
-/// `sampleDepth`: the weighted mean depth of the occluders, and 0 for none, which a depth may be as well (E-B3).
+/// `sampleDepth`: the weighted mean depth of the occluders, and 0 for none, which a depth may be as well.
 pub fn sample_depth(
     listing: &BurleyListing,
     depth: f32,
@@ -73,7 +73,7 @@ pub fn sample_depth(
     if total > 0.0 { sum / total } else { sum }
 }
 
-/// `sampleBlur`: the share of the samples that are nearer. The listing calls it without its point (E-B2); 0 without samples.
+/// `sampleBlur`: the share of the samples that are nearer. The listing calls it without its point; 0 without samples.
 pub fn sample_blur(listing: &BurleyListing, depth: f32, samples: impl IntoIterator<Item = Sample>) -> f32 {
     let (mut occluded, mut count) = (0u32, 0u32);
     for sample in samples {
@@ -83,13 +83,13 @@ pub fn sample_blur(listing: &BurleyListing, depth: f32, samples: impl IntoIterat
     if count > 0 { occluded as f32 / count as f32 } else { 0.0 }
 }
 
-/// The blur's radius, not clamped: occluders behind the point, which E-B1 lets in, make it negative (E-B4, V64). A point at depth 0 has the radius `min`.
+/// The blur's radius, not clamped: occluders behind the point, which the added bias lets in, make it negative. A point at depth 0 has the radius `min`.
 pub fn soft_radius(min: f32, max: f32, occluder: f32, depth: f32) -> f32 {
     if depth == 0.0 { min } else { min + (max - min) * (1.0 - occluder / depth) }
 }
 
-/// `softShadow` for a point at (x, y) texels and depth z of a map, radii in texels. Negative radii are looked up by their size (E-B4); without an
-/// occluder in the search the point is lit, whatever the blur would have met (E-B9).
+/// `softShadow` for a point at (x, y) texels and depth z of a map, radii in texels. Negative radii are looked up by their size; without an
+/// occluder in the search the point is lit, whatever the blur would have met.
 pub fn soft_shadow<M: DepthMap>(listing: &BurleyListing, map: &M, point: Vec3, min: f32, max: f32) -> f32 {
     let at = point.truncate();
     let occluder = sample_depth(listing, point.z, max, listing.around(map, at, max, |y| y));

@@ -1,4 +1,4 @@
-//! What the printed listings do, misprints included, for the errata figures and their tests only (spec C-8).
+//! What the printed listings do, misprints included, for the errata figures and their tests only.
 //!
 //! The behaviour is reproduced, not the scans' garble, and never a panic or a division by zero.
 //!

@@ -1,13 +1,13 @@
-//! Reeves, Salesin & Cook 1987, Fig. 4 (errata E-R1 to E-R21). Where the listing divides by zero the guards of E-R6 answer.
+//! Reeves, Salesin & Cook 1987, Fig. 4. Where the listing divides by zero, guards answer.
 //!
-//! What only concerns the language is Rust's here: garbled declarations (E-R1), `floor` and `ceil` declared without their type
-//! (E-R2), a bitwise `|` between truth values (E-R11), the order of the array's indices (E-R20). The cull's inclusive rectangle with
-//! floor and ceiling is kept as printed (E-R12), like the square map.
+//! What only concerns the language is Rust's here: garbled declarations, `floor` and `ceil` declared without their type,
+//! a bitwise `|` between truth values, the order of the array's indices. The cull's inclusive rectangle with
+//! floor and ceiling is kept as printed, like the square map.
 
 use glam::IVec2;
 use umbrage_depth::DepthMap;
 
-/// Which range the listing's `Rand()` has; it uses one function for the jitter and for the bias (E-R9).
+/// Which range the listing's `Rand()` has; it uses one function for the jitter and for the bias.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RandRange {
     /// \[0, 1): jitter reaches only the upper half of each cell.
@@ -16,7 +16,7 @@ pub enum RandRange {
     Signed,
 }
 
-/// What the caller hands over as `sres`, `tres` (E-R3).
+/// What the caller hands over as `sres`, `tres`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FootprintConvention {
     /// Half-extents, as the listing uses them: the value passes through unchanged.
@@ -42,17 +42,17 @@ pub struct Listing {
     pub bias1: f32,
     /// Range of `Rand()`.
     pub rand: RandRange,
-    /// Reads the minimum of t as the printed subtraction, which does nothing (E-R4).
+    /// Reads the minimum of t as the printed subtraction, which does nothing.
     pub e_r4_noop: bool,
     /// Meaning of `sres`, `tres`.
     pub footprint: FootprintConvention,
     /// Woo's archived version of 1992: what lies outside the rectangle is in shadow, and nothing is asked about z < 0. Right for the rectangle
-    /// of a spot light's cone, wrong for that of the finite depths (W92-6, W92-10, T-3).
+    /// of a spot light's cone, wrong for that of the finite depths.
     pub gg_bbox_rule: bool,
 }
 
 impl Default for Listing {
-    /// The printed initial values, `Rand()` in \[0, 1) (E-R18).
+    /// The printed initial values, `Rand()` in \[0, 1).
     fn default() -> Self {
         Self {
             num_samples: 16,
@@ -82,7 +82,7 @@ pub struct TextureRect {
     pub vmax: i32,
 }
 
-/// Sample counts as the listing computes them, and how often a guard had to answer (E-R5, E-R6).
+/// Sample counts as the listing computes them, and how often a guard had to answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts {
     /// Samples along s.
@@ -93,7 +93,7 @@ pub struct Counts {
     pub guarded: u32,
 }
 
-/// The listing's sample counts for half-extents in texels: in its second branch `ns` comes from an unclamped `nt`, and only `nt` is clamped (E-R5, E-R7, E-R8).
+/// The listing's sample counts for half-extents in texels: in its second branch `ns` comes from an unclamped `nt`, and only `nt` is clamped.
 ///
 /// `num_samples` of 0 counts as 1, and `min_samples` is moved into 1..=`num_samples`.
 pub fn counts(sres: f32, tres: f32, num_samples: u32, min_samples: u32) -> Counts {
@@ -114,7 +114,7 @@ pub fn counts(sres: f32, tres: f32, num_samples: u32, min_samples: u32) -> Count
 
 /// `SampleShadow` as printed: the fraction in shadow of a region at (s, t) (0..1 of the map's width), depth `z`, size `sres` × `tres` (same unit).
 ///
-/// `map` is square; `rand` gives numbers in \[0, 1), drawn in the listing's order: s, t, bias (E-R19).
+/// `map` is square; `rand` gives numbers in \[0, 1), drawn in the listing's order: s, t, bias.
 pub fn sample_shadow<M: DepthMap>(
     listing: &Listing,
     map: &M,

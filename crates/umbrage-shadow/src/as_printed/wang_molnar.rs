@@ -1,6 +1,6 @@
-//! Wang & Molnar 1994, Fig. 10 (errata E-M1 to E-M11).
+//! Wang & Molnar 1994, Fig. 10.
 
-/// How the listing's last line divides (E-M2).
+/// How the listing's last line divides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Division {
     /// As fractions, which is meant.
@@ -9,12 +9,12 @@ pub enum Division {
     Integer,
 }
 
-/// The fraction of a pixel that is *illuminated*, 1 lit: the listing returns the complement of a shadow (E-M9).
+/// The fraction of a pixel that is *illuminated*, 1 lit: the listing returns the complement of a shadow.
 ///
 /// `second` holds the nearby samples of the depth map, +∞ for none, and `virtual_samples` the depths of the tangent plane at the same places;
-/// the shorter of both counts, and without any the pixel is dark. The counter begins at 0, as it must have (E-M1); virtual samples are compared by the
-/// printed `<`, so that a flat sheet shadows itself (E-M3); there is no bias (E-M7), and no rule for edge-on planes (E-M8). Where the counts
-/// come from, how many samples are near and what lies outside the map, the listing leaves open (E-M5, E-M6).
+/// the shorter of both counts, and without any the pixel is dark. The counter begins at 0, as it must have; virtual samples are compared by the
+/// printed `<`, so that a flat sheet shadows itself; there is no bias, and no rule for edge-on planes. Where the counts
+/// come from, how many samples are near and what lies outside the map, the listing leaves open.
 pub fn percent_illumination(camera: f32, second: &[f32], virtual_samples: &[f32], division: Division) -> f32 {
     let samples = second.len().min(virtual_samples.len());
     let lit = second[..samples].iter().filter(|&&second| camera <= second).count();

@@ -6,7 +6,7 @@ use umbrage_sample::{Taps, radical_inverses};
 /// How a bias is taken from its range at each tap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Spread {
-    /// At random (Reeves 1987, R87-14): a surface that curves away shadows itself gradually, with noise.
+    /// At random (Reeves 1987): a surface that curves away shadows itself gradually, with noise.
     #[default]
     Random,
     /// As a ramp: tap k takes the radical inverse of k, so that the taps of a region share the range without noise; evenly when
@@ -14,7 +14,7 @@ pub enum Spread {
     Ramp,
 }
 
-/// One depth for the whole region, moved toward the light by a bias from a range (Reeves 1987, §3.2 and Fig. 4; R87-14).
+/// One depth for the whole region, moved toward the light by a bias from a range (Reeves 1987, §3.2 and Fig. 4).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Biased {

@@ -4,22 +4,22 @@ use glam::DVec2;
 use umbrage_plane::{Bias, DepthRange, Kind, Receiver, TexelRect, View, floor_texel};
 use umbrage_sample::Taps;
 
-/// From where to where a [`BiasCone`] measures (B06-3).
+/// From where to where a [`BiasCone`] measures (Burley 2006).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Radius {
     /// To the place in the texel that is read where its depth was taken: the centre, or its own offset in a stochastic map.
     #[default]
     TexelCentre,
-    /// To the tap itself, as the note prints it. Needs a base of τ·tanθ/√2 besides (D-15), and twice that in a stochastic map, whose
+    /// To the tap itself, as the note prints it. Needs a base of τ·tanθ/√2 besides, and twice that in a stochastic map, whose
     /// samples lie up to a whole diagonal of a texel away.
     Nominal,
 }
 
 /// The bias cone: the receiver's depth falls toward the light with the distance of the place that is looked at
-/// (Burley 2006; B06-1, B06-2).
+/// (Burley 2006).
 ///
 /// Distances are in world units on the plane square to the light's axis through the receiver, so that `slope` is the tangent of the steepest
-/// tilt that is free of false shadow. That is certain with [`Radius::TexelCentre`], whatever the texel (D-15), in maps of
+/// tilt that is free of false shadow. That is certain with [`Radius::TexelCentre`], whatever the texel, in maps of
 /// axial and of screen depth, but for rounding at the very tip (see `base`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -43,7 +43,7 @@ impl Default for BiasCone {
 umbrage_plane::builders!([] BiasCone { with_base base: f32, with_slope slope: f32, with_radius radius: Radius });
 
 impl BiasCone {
-    /// The bias at a distance, both in world units (V62).
+    /// The bias at a distance, both in world units.
     #[inline(always)]
     pub fn bias(&self, radius: f32) -> f32 {
         self.base + self.slope * radius

@@ -4,19 +4,19 @@ use umbrage_plane::{Bias, DepthPlane, DepthRange, Kind, Receiver, Sampling, Texe
 use umbrage_sample::Taps;
 
 /// The receiver's tangent plane where the texel that is read was sampled, moved toward the light
-/// (the receiver plane of R87-13 and E-R16; the virtual sample of Wang & Molnar 1994, WM94-7 to WM94-10).
+/// (the virtual sample of Wang & Molnar 1994).
 ///
 /// A plane then needs no bias for slope, only for rounding. One that is edge-on to the light has the receiver's own depth everywhere; one whose
-/// horizon is passed is at +∞ there, behind everything that is stored (D-5).
+/// horizon is passed is at +∞ there, behind everything that is stored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct OnPlane {
     /// Moves the whole plane toward the light.
     pub bias: Bias,
     /// Moves it by so many times the rounding of its own depths: 4·10⁻⁶ of screen depth, 10⁻⁶ of other depths, both over |N·L|
-    /// (WM94-12, V58). 1 lets a flat sheet be its own second surface.
+    /// (Wang & Molnar 1994). 1 lets a flat sheet be its own second surface.
     pub slack: f32,
-    /// The plane's depth goes no farther than this from the receiver's own, in the map's units; +∞ lets it (WM94-10).
+    /// The plane's depth goes no farther than this from the receiver's own, in the map's units; +∞ lets it (Wang & Molnar 1994).
     pub reach: f32,
 }
 

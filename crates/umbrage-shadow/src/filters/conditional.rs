@@ -3,7 +3,7 @@ use fearless_simd::Simd;
 use umbrage_depth::DepthMap;
 use umbrage_sample::{EveryTexel, Pattern};
 
-/// When the tangent plane is asked (Wang & Molnar 1994; WM94-15).
+/// When the tangent plane is asked (Wang & Molnar 1994).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum VirtualWhen {
     /// Where the texels disagree about the receiver's own depth. The paper's rule.
@@ -16,16 +16,16 @@ pub enum VirtualWhen {
 }
 
 /// Wang & Molnar's rule for a map of second surfaces: texels that agree about the receiver's depth settle it, and where they do not,
-/// the receiver's tangent plane is compared at each of them instead (Wang & Molnar 1994, §3 and Fig. 10; WM94-4 to WM94-15).
+/// the receiver's tangent plane is compared at each of them instead (Wang & Molnar 1994, §3 and Fig. 10).
 ///
 /// The nearby texels are those of `pattern` over the receiver's region times `res_factor`, of at least `min_size` half-extent. With
-/// [`EveryTexel`]: 0 and 1 are the nearest four, 0 and n/2 a box of n × n, 1 and 1 the region's own, at least 2 × 2 (WM94-6).
+/// [`EveryTexel`]: 0 and 1 are the nearest four, 0 and n/2 a box of n × n, 1 and 1 the region's own, at least 2 × 2.
 /// [`Tent`](umbrage_sample::Tent) weighs them by nearness.
 ///
 /// Departures from the printed listing, by the errata of [`as_printed`](crate::as_printed): (1) counts begin at 0 and are divided as
-/// fractions (E-M1, E-M2); (2) equality is lit at virtual samples too, within their rounding (E-M3, WM94-12); (3) places outside the map answer by
-/// the view's rules (E-M6); (4) there is a bias, of 0 (E-M7, WM94-13); (5) planes that nearly hold the light's ray fall back on plain comparison,
-/// and beyond a plane's horizon its depth is +∞ (E-M8, WM94-10).
+/// fractions; (2) equality is lit at virtual samples too, within their rounding; (3) places outside the map answer by
+/// the view's rules; (4) there is a bias, of 0; (5) planes that nearly hold the light's ray fall back on plain comparison,
+/// and beyond a plane's horizon its depth is +∞.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Conditional<P = EveryTexel> {
@@ -34,7 +34,7 @@ pub struct Conditional<P = EveryTexel> {
     /// Multiplies the region's size.
     pub res_factor: f32,
     /// Least half-extent of the region after that, in texels. Stochastic maps want 1.5: the samples of three by three texels surround the point,
-    /// those of the nearest four may all lie to one side, and a steep sheet's own all nearer (T-11).
+    /// those of the nearest four may all lie to one side, and a steep sheet's own all nearer.
     pub min_size: f32,
     /// The virtual samples. Its bias is that of plain comparison too.
     pub plane: OnPlane,
@@ -42,7 +42,7 @@ pub struct Conditional<P = EveryTexel> {
     pub min_cos: f32,
     /// When virtual samples are taken.
     pub when: VirtualWhen,
-    /// Whether what faces away from the light is dark without a look: it is by its own shading, if that is max(N·L, 0) (WM94-4).
+    /// Whether what faces away from the light is dark without a look: it is by its own shading, if that is max(N·L, 0) (Wang & Molnar 1994).
     pub dark_backs: bool,
 }
 

@@ -4,10 +4,10 @@ use umbrage_depth::DepthMap;
 use umbrage_plane::Bias;
 use umbrage_sample::{EveryTexel, Pattern};
 
-/// The control of Reeves' Figure 2a: filter the depths, then compare once (R87-10). The answer is 0 or 1, and near an edge it means nothing.
+/// The control of Reeves' Figure 2a: filter the depths, then compare once. The answer is 0 or 1, and near an edge it means nothing.
 ///
 /// A region that holds a texel without a surface has a mean of +∞ and is lit; one whose point lies outside the map or the cone answers
-/// by the view's rules (spec C-10). Over a deep map the mean is weighted by what each surface stops, and the answer is 0 or what all of them stop
+/// by the view's rules. Over a deep map the mean is weighted by what each surface stops, and the answer is 0 or what all of them stop
 /// together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]

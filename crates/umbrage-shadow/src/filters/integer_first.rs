@@ -6,13 +6,13 @@ use umbrage_depth::DepthMap;
 use umbrage_plane::Bias;
 use umbrage_sample::{Jittered, Pattern};
 
-/// Whole units of a depth: what Woo compares first (Woo 1992; W92-7). Rounded down and saturated, so that it never decreases; NaN is 0.
+/// Whole units of a depth: what Woo compares first (Woo 1992). Rounded down and saturated, so that it never decreases; NaN is 0.
 #[inline(always)]
 pub fn whole(depth: f32, unit: f32) -> i32 {
     (depth / unit).floor() as i32
 }
 
-/// Whether `receiver` lies behind `stored`, by whole units where these differ; the second says whether they did (W92-7, V34).
+/// Whether `receiver` lies behind `stored`, by whole units where these differ; the second says whether they did (Woo 1992).
 ///
 /// The same as `receiver > stored` for all depths, ∞ included, because rounding down keeps order. NaN is never behind.
 #[inline(always)]
@@ -22,7 +22,7 @@ pub fn behind(receiver: f32, stored: f32, unit: f32) -> (bool, bool) {
 }
 
 /// Percentage-closer filtering without bias, comparing whole units before fractions: Woo's economy of floating-point work
-/// (Woo 1992; W92-5, W92-7). Meant for midpoint maps.
+/// (Woo 1992). Meant for midpoint maps.
 ///
 /// Answers as [`Pcf`](crate::Pcf) with a bias of 0 does, bit for bit; a [`Probe`] counts how often whole units settled it. On today's machines it
 /// saves nothing. Deep maps answer by what passes, and count no comparison.

@@ -3,14 +3,14 @@ use fearless_simd::Simd;
 use umbrage_depth::DepthMap;
 use umbrage_sample::{Jittered, Pattern};
 
-/// Percentage-closer filtering (Reeves, Salesin & Cook 1987, §2, §3.2 and Fig. 4; R87-9, R87-13).
+/// Percentage-closer filtering (Reeves, Salesin & Cook 1987, §2, §3.2 and Fig. 4).
 ///
 /// Each texel under the region becomes "nearer or not", and those answers are averaged.
 ///
-/// Departures from the printed listing, by the errata of [`as_printed`](crate::as_printed): (1) both half-extents get their minimum
-/// (E-R4); (2) sample counts are clamped in an order that cannot divide by zero (E-R5, E-R6); (3) jitter spans whole cells
-/// (E-R9); (4) positions are floored (E-R10); (5) samples outside the map or the cone answer by the view's rules (E-R13, E-R14);
-/// (6) the cull uses depth ranges and never changes a result (R87-22).
+/// Departures from the printed listing, by the errata of [`as_printed`](crate::as_printed): (1) both half-extents get their minimum;
+/// (2) sample counts are clamped in an order that cannot divide by zero; (3) jitter spans whole cells;
+/// (4) positions are floored; (5) samples outside the map or the cone answer by the view's rules;
+/// (6) the cull uses depth ranges and never changes a result.
 ///
 /// ```
 /// use umbrage_sample::Disc;

@@ -30,11 +30,11 @@ impl MapRadius {
     }
 }
 
-/// How wide the blur is, from the mean distance of the occluders (B06-6, EXT-4).
+/// How wide the blur is, from the mean distance of the occluders (Burley 2006).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Softness {
     /// Burley's: from `min` where the occluder touches the receiver to `max` where it is at the light, by 1 − z̄/z_p. Occluders are searched
-    /// within `max`. A disc light's own penumbra for one distance of occluders only (D-16).
+    /// within `max`. A disc light's own penumbra for one distance of occluders only.
     ///
     /// Parallel light comes from nowhere: there `max` is reached where the occluder is as far from the receiver as the map is
     /// wide, in world units, over the larger of its sides.
@@ -44,7 +44,7 @@ pub enum Softness {
         /// Largest radius and the search's.
         max: MapRadius,
     },
-    /// Physical: the penumbra of a disc that stands for the light (EXT-4, D-16). Half a texel at contact.
+    /// Physical: the penumbra of a disc that stands for the light. Half a texel at contact.
     Light {
         /// Radius of the disc in world units; of a directional light, the tangent of its angular radius (the sun: .00465).
         radius: f32,
@@ -57,7 +57,7 @@ pub enum Softness {
 
 impl Softness {
     /// Burley's factor 1 − z̄/z_p, between 0 and 1, for occluders at a mean distance and a receiver at another; 0 for a receiver at or behind
-    /// the light (E-B4, V64).
+    /// the light.
     #[inline(always)]
     pub fn factor(mean: f32, distance: f32) -> f32 {
         if distance > 0.0 { (1.0 - mean / distance).clamp(0.0, 1.0) } else { 0.0 }
@@ -103,7 +103,7 @@ impl Softness {
     }
 }
 
-/// How occluders count by their distance from the search's centre (B06-4).
+/// How occluders count by their distance from the search's centre (Burley 2006).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum OccluderFalloff {
     /// From 1 at the centre in a straight line to `rim`, above 0 and at most 1, at the search's radius. Burley's rim is 0.1.
@@ -123,7 +123,7 @@ pub enum OccluderFalloff {
         /// p, above 0: 1 is the straight line, more keeps the middle's weight for longer.
         exponent: f32,
     },
-    /// All alike: the plain mean (Fernando 2005; B06-9).
+    /// All alike: the plain mean (Fernando 2005).
     Flat,
 }
 
@@ -140,7 +140,7 @@ impl OccluderFalloff {
     }
 }
 
-/// A shadow's density by the way from occluder to receiver (B06-10).
+/// A shadow's density by the way from occluder to receiver (Burley 2006).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Opacity {
@@ -178,7 +178,7 @@ impl Opacity {
     }
 }
 
-/// The weighted mean of occluders' distances (B06-4). Its own type because *none* is no distance (E-B3).
+/// The weighted mean of occluders' distances (Burley 2006). Its own type because *none* is no distance.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mean {
     sum: f64,
@@ -199,14 +199,14 @@ impl Mean {
 }
 
 /// Soft shadows from one map: the mean distance of the occluders around a receiver sets how wide its shadow is blurred
-/// (Burley 2006; B06-4 to B06-8, B06-10).
+/// (Burley 2006).
 ///
 /// `depth` is compared in both passes: [`BiasCone`] is Burley's; a tangent plane or a constant bias does as well. Distances are measured from the
-/// light: axial or Euclidean as the map stores them, and from the plane of the view's eye for directional lights (T-12). Texels outside the map are
-/// never occluders; where the view's rules say dark, it is dark whatever the opacity and whether an occluder was found or not (W92-6). The blur is never narrower than the receiver's own region, and no wider than a quarter of the map to each side.
+/// light: axial or Euclidean as the map stores them, and from the plane of the view's eye for directional lights. Texels outside the map are
+/// never occluders; where the view's rules say dark, it is dark whatever the opacity and whether an occluder was found or not (Woo 1992). The blur is never narrower than the receiver's own region, and no wider than a quarter of the map to each side.
 ///
-/// Departures from the printed listing, by the errata of [`as_printed`](crate::as_printed): the bias moves toward the light (E-B1), the blur knows its
-/// point (E-B2), *no occluder* is not a depth of 0 (E-B3), the factor is clamped (E-B4), slope and radius are in world units (E-B5, E-B6).
+/// Departures from the printed listing, by the errata of [`as_printed`](crate::as_printed): the bias moves toward the light, the blur knows its
+/// point, *no occluder* is not a depth of 0, the factor is clamped, slope and radius are in world units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Soft<D = BiasCone> {
@@ -225,7 +225,7 @@ pub struct Soft<D = BiasCone> {
     /// Density by distance.
     pub opacity: Opacity,
     /// Whether a receiver without occluders is still looked up at the least radius: what only the blur would have met does not
-    /// vanish at once then (E-B9).
+    /// vanish at once then.
     pub rescue: bool,
 }
 
@@ -266,7 +266,7 @@ impl<D> Soft<D> {
 
 impl<D: ReceiverDepth> Soft<D> {
     /// The weighted mean distance of the occluders around a receiver, world units from the light; `None` without one
-    /// (`sampleDepth` of the note; B06-4).
+    /// (`sampleDepth` of the note).
     #[inline(always)]
     fn occluders<S: Simd, M: DepthMap, P: Probe>(
         &self,

@@ -1,11 +1,11 @@
 //! Casting curved shadows on curved surfaces, Williams 1978.
 //!
 //! [`Williams`] is the test of one point against the light's map, with the stages that the paper puts in front of the
-//! comparison in their order (W78-18): transform, dither, look up, compare. The matrices by which a finished picture is
+//! comparison in their order: transform, dither, look up, compare. The matrices by which a finished picture is
 //! tested are here as well; the stages after the comparison work on the shadow image and live in `umbrage-render`.
 //!
-//! Departures: (1) bilinear interpolation of an axial perspective map is done on −1/ζ, where planes are linear
-//! (W78-13, D-1); (2) [`Guard`] keeps blends across silhouettes out of the comparison (W78-14).
+//! Departures: (1) bilinear interpolation of an axial perspective map is done on −1/ζ, where planes are linear;
+//! (2) [`Guard`] keeps blends across silhouettes out of the comparison.
 
 use crate::{Filter, Probe, Query, Surfaces, TapJudged};
 use fearless_simd::Simd;
@@ -17,13 +17,13 @@ use umbrage_sample::Key;
 /// How the light's depth at a point is taken from the texels around it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lookup {
-    /// The texel that the point falls in (W78-12).
+    /// The texel that the point falls in (Williams 1978).
     Nearest,
-    /// Interpolated between the four nearest texel centres (W78-13).
+    /// Interpolated between the four nearest texel centres (Williams 1978).
     Bilinear(Guard),
 }
 
-/// What bilinear interpolation does at a silhouette, where a blend means nothing (W78-14).
+/// What bilinear interpolation does at a silhouette, where a blend means nothing (Williams 1978).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Guard {
     /// Blends whatever is there; empty texels count as the far plane.
@@ -38,17 +38,17 @@ impl Default for Guard {
     }
 }
 
-/// The law of the dither (W78-15).
+/// The law of the dither (Williams 1978).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum DitherLaw {
-    /// Normal with σ = 1/6, redrawn outside ±½: standard deviation 0.16443 (V46d).
+    /// Normal with σ = 1/6, redrawn outside ±½: standard deviation 0.16443.
     #[default]
     TruncatedNormal,
     /// Mean of three uniform numbers less ½: standard deviation 1/6.
     ThreeUniforms,
 }
 
-/// A random displacement before the look-up (W78-15).
+/// A random displacement before the look-up (Williams 1978).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Dither {
@@ -95,11 +95,11 @@ impl Dither {
     }
 }
 
-/// Williams' test of one point (W78-11..W78-15). The answer is 0 or 1, except over deep maps, where it is what the surfaces stop.
+/// Williams' test of one point. The answer is 0 or 1, except over deep maps, where it is what the surfaces stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Williams {
-    /// Moves the point toward the light (W78-11).
+    /// Moves the point toward the light (Williams 1978).
     pub bias: Bias,
     /// How the stored depth is read.
     pub lookup: Lookup,
@@ -190,7 +190,7 @@ pub(super) fn lerp([a, b, c, d]: [f32; 4], fraction: Vec2) -> f32 {
     top + (bottom - top) * fraction.y
 }
 
-/// The depth at a texel position between the four nearest texel centres (W78-13, V44).
+/// The depth at a texel position between the four nearest texel centres (Williams 1978).
 ///
 /// Screen and orthographic depths are interpolated as they are, axial perspective depths through −1/ζ.
 pub fn bilinear<M: DepthMap>(map: &M, at: Vec2, guard: Guard, receiver: &Receiver) -> f32 {
@@ -219,7 +219,7 @@ fn far_depth(view: &View) -> f32 {
     if view.kind() == Kind::Screen { 1.0 } else { view.far() as f32 }
 }
 
-/// The single matrix from the observer's screen (x_n, y_n, z_s) to the light's: M_light · M_observer⁻¹ (W78-3, V38).
+/// The single matrix from the observer's screen (x_n, y_n, z_s) to the light's: M_light · M_observer⁻¹ (Williams 1978).
 ///
 /// It takes homogeneous points; divide by w afterwards ([`transform`]).
 pub fn observer_to_light(observer: &View, light: &View) -> DMat4 {
@@ -228,7 +228,7 @@ pub fn observer_to_light(observer: &View, light: &View) -> DMat4 {
     light.eye_to_screen() * eye_to_eye * observer.eye_to_screen().inverse()
 }
 
-/// Subtracts `bias` (units of z_s) from the z that comes out, inside the matrix: row 3 less bias times row 4 (W78-11, D-8, V39).
+/// Subtracts `bias` (units of z_s) from the z that comes out, inside the matrix: row 3 less bias times row 4 (Williams 1978).
 pub fn fold_bias(matrix: DMat4, bias: f64) -> DMat4 {
     let rows = matrix.transpose();
     DMat4::from_cols(rows.x_axis, rows.y_axis, rows.z_axis - bias * rows.w_axis, rows.w_axis).transpose()
@@ -241,7 +241,7 @@ pub fn transform(matrix: &DMat4, point: DVec3) -> Option<DVec3> {
     (out.w > 0.0).then(|| out.truncate() / out.w)
 }
 
-/// Many points at once through one matrix (W78-27); the ones behind the light become NaN.
+/// Many points at once through one matrix (Williams 1978); the ones behind the light become NaN.
 pub fn transform_all(matrix: &DMat4, points: &mut [DVec3]) {
     for point in points {
         *point = transform(matrix, *point).unwrap_or(DVec3::NAN);

@@ -10,11 +10,11 @@ use umbrage_depth::{DepthMap, FacetSample, FacetSource, Facets, MomentSource, St
 use umbrage_plane::{DepthRange, Kind, Place, SurfacePoint, TexelRect, View, vectorized};
 use umbrage_sample::Key;
 
-/// Which of the views around a light a point is tested in (Williams 1978; W78-10).
+/// Which of the views around a light a point is tested in (Williams 1978).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Evaluate {
     /// In its own: the one whose axis is nearest to the point's direction. Samples that fall outside are answered by the
-    /// neighbour, so that filters cross seams (R87-17).
+    /// neighbour, so that filters cross seams (Reeves 1987).
     #[default]
     Own,
     /// In every one that it falls into, as if each were a light of its own; the darkest answer counts. Samples outside a view are
@@ -39,8 +39,8 @@ pub enum AroundError {
     },
 }
 
-/// A light that shines in all directions, or in several: maps of one kind around one point (Reeves 1987, Williams 1978; R87-17,
-/// W78-10). A cube's six faces cover everything, sectors a belt; what no view sees is lit.
+/// A light that shines in all directions, or in several: maps of one kind around one point (Reeves 1987,
+/// Williams 1978). A cube's six faces cover everything, sectors a belt; what no view sees is lit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Around<F, M> {
     /// How the maps are asked.
@@ -79,12 +79,12 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
         &self.maps
     }
 
-    /// Bytes held for the depths of all views (W78-10, X-6).
+    /// Bytes held for the depths of all views (Williams 1978).
     pub fn bytes(&self) -> usize {
         self.maps.iter().map(DepthMap::bytes).sum()
     }
 
-    /// [`Shadow::fractions`], observed by `probe` (spec X-6).
+    /// [`Shadow::fractions`], observed by `probe`.
     ///
     /// # Panics
     /// As [`Shadow::fractions`].
@@ -206,7 +206,7 @@ pub(crate) fn nearest<M: DepthMap>(maps: &[M], direction: DVec3) -> usize {
 }
 
 /// One of several maps around a light, whose texels outside are answered by its neighbours: every filter crosses the seams
-/// unchanged (R87-17, T-16).
+/// unchanged (Reeves 1987).
 struct Face<'a, M> {
     maps: &'a [M],
     own: usize,

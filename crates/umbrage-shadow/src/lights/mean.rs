@@ -5,7 +5,7 @@ use glam::Vec3;
 use umbrage_plane::SurfacePoint;
 use umbrage_sample::Key;
 
-/// The mean of several shadows, each of equal weight: over several times of a frame it is motion blur (EXT-2), over several points of a
+/// The mean of several shadows, each of equal weight: over several times of a frame it is motion blur, over several points of a
 /// light its penumbra (Haeberli & Akeley 1990).
 ///
 /// All are asked with the same key. Without any, everything is lit.

@@ -44,7 +44,7 @@ use umbrage_sample::Key;
 /// `key` names the picture's light; the implementor adds each point's region to it, and refuses slices of other lengths by
 /// [`same_length`].
 pub trait Shadow: Send + Sync {
-    /// The fraction in shadow of each region: 0 lit, 1 dark (spec C-6).
+    /// The fraction in shadow of each region: 0 lit, 1 dark.
     ///
     /// # Panics
     /// When `out` is not as long as `at`.

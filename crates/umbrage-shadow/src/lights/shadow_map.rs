@@ -22,7 +22,7 @@ pub struct ShadowMap<F, M> {
 }
 
 impl<F: Filter, M: DepthMap> ShadowMap<F, M> {
-    /// [`Shadow::fractions`], observed by `probe` (spec X-6).
+    /// [`Shadow::fractions`], observed by `probe`.
     ///
     /// # Panics
     /// As [`Shadow::fractions`].
@@ -33,7 +33,7 @@ impl<F: Filter, M: DepthMap> ShadowMap<F, M> {
     /// The fraction of a receiver that is already in the light's space, under its region's own key.
     ///
     /// # Panics
-    /// When the receiver's depth is of another kind than the map's: the two cannot be compared (spec C-4).
+    /// When the receiver's depth is of another kind than the map's: the two cannot be compared.
     pub fn fraction_of(&self, receiver: &Receiver, key: Key) -> f32 {
         self.fraction_of_probed(receiver, key, &mut ())
     }

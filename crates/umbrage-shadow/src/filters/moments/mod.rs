@@ -33,7 +33,7 @@ const ROUNDING: f64 = 1e-6;
 /// others, is called light bleeding; `bleeding` cuts it off.
 ///
 /// Receivers up to the map's nearest depth are lit. So are those whose depth is NaN. Shadows below 10⁻⁶ are none. A place outside the map
-/// or the cone answers by the view's rules (spec C-10).
+/// or the cone answers by the view's rules.
 ///
 /// Over a map without moments the depths of four texels are known themselves: the answer is the fraction of the four around the receiver's
 /// place that is nearer, weighted as in an interpolation, and over deep maps what these stop. Nothing is cut off. Around a light, places that only a neighbour's
