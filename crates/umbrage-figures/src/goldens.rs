@@ -22,17 +22,10 @@ pub struct Picture {
 
 /// The README's pictures.
 pub const PICTURES: &[Picture] = &[
-    Picture { file: "fixtures/readme/hero.png", figure: "R87-F14", panel: "shop" },
-    Picture { file: "fixtures/readme/woo.png", figure: "U-auto", panel: "woo-zoom" },
-    Picture { file: "fixtures/readme/auto.png", figure: "U-auto", panel: "auto-zoom" },
-    Picture { file: "fixtures/readme/truth.png", figure: "U-auto", panel: "truth-zoom" },
+    Picture { file: "fixtures/readme/engine.png", figure: "U-auto", panel: "chairs-engine" },
+    Picture { file: "fixtures/readme/default.png", figure: "U-auto", panel: "chairs-auto" },
     Picture { file: "fixtures/readme/robot.png", figure: "W78-F8", panel: "robot" },
     Picture { file: "fixtures/readme/lamps.png", figure: "R87-F12", panel: "c-jittered" },
-    Picture { file: "fixtures/readme/williams.png", figure: "W78-F6", panel: "applied" },
-    Picture { file: "fixtures/readme/ordinary.png", figure: "R87-F6", panel: "a-zoom" },
-    Picture { file: "fixtures/readme/filtered.png", figure: "R87-F6", panel: "b-zoom" },
-    Picture { file: "fixtures/readme/biased.png", figure: "W92-F2", panel: "full" },
-    Picture { file: "fixtures/readme/midpoint.png", figure: "W92-F3", panel: "full" },
     Picture { file: "fixtures/readme/plant.png", figure: "B06-deep", panel: "plant" },
 ];
 

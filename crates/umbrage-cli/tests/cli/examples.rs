@@ -54,17 +54,34 @@ fn every_example_of_help_runs() {
     assert_eq!(std::fs::read_to_string(folder.join("fractions.txt")).expect("a file"), "1.000000000\n0.000000000\n");
 }
 
+/// A page of the repository.
+fn page(name: &str) -> String {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name)).expect("a page")
+}
+
+/// The first block of a language behind a heading.
+fn block<'a>(text: &'a str, heading: &str, language: &str) -> &'a str {
+    let (_, section) = text.split_once(heading).expect("a section about the command");
+    let (_, block) = section.split_once(&format!("```{language}\n")).expect("a block");
+    block.split_once("\n```").expect("its end").0
+}
+
 #[test]
-fn every_example_of_the_readme_runs() {
-    let folder = folder("examples-readme");
-    let readme =
-        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md")).expect("README");
-    let (_, section) = readme.split_once("## From the shell").expect("a section about the command");
-    let (_, block) = section.split_once("```sh\n").expect("a block of examples");
-    let (block, _) = block.split_once("\n```").expect("its end");
-    let lines = lines(block);
-    assert!(lines.len() >= 6, "{lines:?}");
+fn every_example_of_the_commands_page_runs() {
+    let folder = folder("examples-page");
+    let page = page("crates/TOOL.md");
+    let lines = lines(block(&page, "# The `umbrage` command", "sh"));
+    assert!(lines.len() >= 12, "{lines:?}");
     for line in lines {
         shell(&folder, line);
     }
+}
+
+#[test]
+fn the_readmes_example_prints_what_stands_beside_it() {
+    let folder = folder("examples-readme");
+    let readme = page("README.md");
+    let lines = lines(block(&readme, "## From the shell", "sh"));
+    let [line] = lines[..] else { panic!("{lines:?}") };
+    assert_eq!(shell(&folder, line).trim_end(), block(&readme, "## From the shell", "text"));
 }

@@ -3,7 +3,8 @@
 use super::judge::{Error, Judge};
 use super::methods::row;
 use crate::figure::{Context, Figure, Paper};
-use crate::stage::panels::{error_panel, shadow_panel, truth_panel, zoomed};
+use crate::stage::panels::{error_panel, shadow_panel, truth_panel, zoomed, zoomed_colour};
+use crate::stage::set::Set;
 use glam::DVec2;
 use umbrage_render::Frame;
 use umbrage_report::plot::{Axis, Plot, Series};
@@ -65,12 +66,15 @@ pub(super) fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
 const MIDDLE: DVec2 = DVec2::new(0.25, 0.70);
 const PART: u32 = 3;
 
+/// The middle of what is enlarged of the furnished room.
+const CHAIRS: DVec2 = DVec2::new(0.555, 0.615);
+
 pub const SHOWN: Figure = Figure {
     id: "U-auto",
     paper: Paper::Umbrage,
     title: "The default beside a paper's map, and beside rays",
     claim: "Edges, contacts and thin shadows as many rays see them, from one small map without a bias.",
-    look: "the enlarged edge and the contact, beside 256 rays a pixel.",
+    look: "the enlarged edge and the contact, beside 256 rays a pixel; and every slat of the chairs.",
     make: shown,
 };
 
@@ -88,6 +92,15 @@ fn shown(cx: &Context) -> anyhow::Result<Made> {
     }
     made.panels.push(truth_panel(judge.truth()));
     made.panels.push(zoomed("truth-zoom", "Enlarged", judge.truth(), MIDDLE, PART).role(Role::Truth));
+    let room = Set::new(gallery::contacts(0), cx.pick(1440, 480), cx.pick(512, 256));
+    for (id, caption, recipe) in [
+        ("chairs-engine", "An engine's default, urp-hard", "urp-hard"),
+        ("chairs-auto", "auto, a map of the same size", "auto"),
+    ] {
+        let picture = room.by(cx, recipe, &SAMPLED)?;
+        let panel = zoomed_colour(id, caption, picture.size, &picture.colour, CHAIRS, PART);
+        made.panels.push(panel.with("recipe", recipe).with("map", room.scene.lights[0].view.size().x));
+    }
     let texels = f64::from(judge.set.scene.lights[0].view.size().element_product());
     made.measures = vec![
         Measure::at_most("auto: error", found[1].0.rms, "rms", 0.012),
