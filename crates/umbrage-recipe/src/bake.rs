@@ -60,7 +60,7 @@ impl Values {
         }
     }
 
-    /// As many samples per texel as are asked for, one where so many do not fit.
+    /// As many samples per texel as are wanted, one where so many do not fit.
     fn sampled<R: DepthRule>(&self, view: &View, casters: Moment<'_, '_>, rule: &R, cull: Cull) -> Baked {
         let axis = self.sub_samples.unwrap_or(1);
         if axis > 1 && view.with_size(view.size().saturating_mul([axis; 2].into())).is_ok() {

@@ -15,7 +15,7 @@ use umbrage_shadow::{
     Around, Conditional, Filter, FilteredDepth, IntegerFirst, Pcf, Shadow, ShadowMap, Soft, Williams,
 };
 
-/// Puts a filter over a map in the storage that is asked for. A filter expects no surface in particular; a [`Recipe`](crate::Recipe) does.
+/// Puts a filter over a map in the storage that is given. A filter expects no surface in particular; a [`Recipe`](crate::Recipe) does.
 pub fn bind<F: Filter + 'static>(filter: F, map: impl Into<Map>, storage: Storage) -> Box<dyn Shadow> {
     Box::new(ShadowMap { filter, map: map.into().kept(storage) })
 }

@@ -23,16 +23,16 @@ const MOST_POINTS: u32 = 64;
 pub struct LightUse<'a> {
     /// How maps of one depth per texel are kept.
     pub storage: Storage,
-    /// Points of the world that will be asked about: what the camera sees. `window=fitted` lays the maps about them. `None` where nobody
+    /// Points of the world that will be shaded: what the camera sees. `window=fitted` lays the maps about them. `None` where nobody
     /// knows.
     pub receivers: Option<&'a [DVec3]>,
-    /// Evenly spread times at which casters are asked for; 0 counts as 1.
+    /// Evenly spread times at which casters are wanted; 0 counts as 1.
     pub moments: u32,
 }
 
 /// A light's shadow, and what it took.
 pub struct LightShadow {
-    /// What is asked.
+    /// What answers.
     pub shadow: Box<dyn Shadow>,
     /// Its maps, in the order in which they were made.
     pub maps: Vec<LightMap>,
@@ -98,7 +98,7 @@ impl Recipe {
 
     /// All of pass 1 of a light, and the algorithm over it: a map for each view that the recipe wants. `views` are the light's own view, or several that stand
     /// at one place and see each another part ([`umbrage_plane::cube_views`]), across whose borders filters go on. `casters` gives the triangles for a view at one of the moments; it
-    /// is asked for each map, and again where some of them let light pass.
+    /// is called for each map, and again where some of them let light pass.
     ///
     /// `auto` makes of it what the light is:
     /// * a spot of a half-angle above 70° has [several maps](View::faces_ahead) instead of one;

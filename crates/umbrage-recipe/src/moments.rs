@@ -1,4 +1,4 @@
-//! Recipes that filter the map before it is asked: which moments they keep, and what asks them.
+//! Recipes that filter the map before it is looked up: which moments they keep, and what compares them.
 
 use crate::PresetName;
 use umbrage_depth::{DepthMap, Map, MomentMap, Moments};

@@ -14,7 +14,7 @@ impl Recipe {
     /// The same recipe with all its biases set to zero: the bias, or the two of a range, the base and the slope of a bias cone, what grows with the slope, the
     /// offset along the normal, or an engine's default. `None` where it has none, so that it would stay as it is.
     ///
-    /// What a tangent plane allows for rounding (`slack`) and what `auto` allows for a sample's width are no biases.
+    /// What a tangent plane allows for rounding (`slack`) and what `auto` allows for a sample's width are not biases.
     ///
     /// ```
     /// use umbrage_recipe::Recipe;

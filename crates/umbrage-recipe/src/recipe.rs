@@ -109,7 +109,7 @@ impl Recipe {
         self.values.biased.low
     }
 
-    /// Whether its maps are laid about the points that will be asked about ([`LightUse::receivers`](crate::LightUse::receivers)).
+    /// Whether its maps are laid about the points that will be shaded ([`LightUse::receivers`](crate::LightUse::receivers)).
     #[must_use]
     pub fn is_fitted(&self) -> bool {
         self.values.window == Window::Fitted
@@ -129,7 +129,7 @@ impl Recipe {
     }
 
     /// Pass 1: the map that this recipe wants of a light's view, from triangles each with what it knows of opacity, colour, normals and holes.
-    /// A caster's [mask](umbrage_bake::Caster::mask) is asked whatever the recipe stores.
+    /// A caster's [mask](umbrage_bake::Caster::mask) is evaluated whatever the recipe stores.
     ///
     /// ```
     /// use glam::{DVec3, UVec2, Vec3};
@@ -180,7 +180,7 @@ impl Recipe {
     }
 
     /// The algorithm over maps that stand around one light and see each another part, such as those of [`umbrage_plane::cube_views`]. Each point
-    /// is asked of the map whose axis is nearest to its direction, and regions cross from one map to the next. A single map is as in [`bind`](Self::bind).
+    /// is answered by the map whose axis is nearest to its direction, and regions cross from one map to the next. A single map is as in [`bind`](Self::bind).
     ///
     /// # Errors
     /// As [`bind`](Self::bind) for any of the maps; also for none, and for views that do not stand around one light.

@@ -57,7 +57,7 @@ const SMALL: u32 = 128;
 pub enum Window {
     /// As the light's view has it.
     Given,
-    /// About the points that will be asked about.
+    /// About the points that will be shaded.
     Fitted,
 }
 

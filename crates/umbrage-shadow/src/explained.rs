@@ -7,7 +7,7 @@ use umbrage_depth::DepthMap;
 use umbrage_plane::TexelRect;
 use umbrage_sample::Taps;
 
-/// What a map stores under sixteen taps that lie within a rectangle. For explanations it is asked one texel after another, which is the same, and
+/// What a map stores under sixteen taps that lie within a rectangle. For explanations it is read one texel after another, which is the same, and
 /// compiled once for each map instead of into every filter.
 #[inline(always)]
 pub(crate) fn look<S: Simd, M: DepthMap, P: Probe>(simd: S, map: &M, within: TexelRect, taps: &Taps<S>) -> f32x16<S> {

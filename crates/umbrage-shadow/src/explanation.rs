@@ -18,7 +18,7 @@ pub struct Explanation {
     pub questions: Vec<Question>,
     /// Whether the receiver was compared on its tangent plane (Wang & Molnar 1994).
     pub on_plane: bool,
-    /// Over maps of facets, each place that was asked about and what the samples around it say.
+    /// Over maps of facets, each place that was judged and what the samples around it say.
     pub places: Vec<PlaceJudged>,
     /// Texels read.
     pub texels: u32,
@@ -34,7 +34,7 @@ pub struct Question {
 }
 
 impl Question {
-    /// The weighted share of the taps that are dark, as the filter itself adds it up; 0 without taps. For a search it is the share that lies behind
+    /// The weighted fraction of the taps that are dark, as the filter itself adds it up; 0 without taps. For a search it is the fraction that lies behind
     /// something.
     pub fn share(&self) -> f32 {
         let (mut dark, mut all) = (0.0, 0.0);
@@ -47,7 +47,7 @@ impl Question {
 }
 
 impl Explanation {
-    /// Nothing asked yet.
+    /// Nothing done yet.
     pub(crate) fn of(view: &View, receiver: Option<Receiver>) -> Self {
         Self {
             view: *view,

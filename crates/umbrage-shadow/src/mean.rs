@@ -14,13 +14,13 @@ use umbrage_sample::{Key, Pattern, Tap, each_tap};
 /// use umbrage_sample::{EveryTexel, Key};
 /// use umbrage_shadow::weighted_mean;
 ///
-/// // Reeves' Figure 2: the share of nearer depths, not the nearness of the mean depth.
+/// // Reeves' Figure 2: the fraction of nearer depths, not the nearness of the mean depth.
 /// let depths = [[50.2, 50.0, 50.0], [50.1, 1.2, 1.1], [1.3, 1.4, 1.2]];
 /// let region = Footprint::boxed(Vec2::splat(1.5), Vec2::splat(1.5));
 /// let at = |x: f32, y: f32| depths[y as usize][x as usize];
 /// let key = Key::new(0, 0, 0);
-/// let share: f32 = weighted_mean(&EveryTexel, &region, key, |tap| if 49.8 > at(tap.at.x, tap.at.y) { 1.0 } else { 0.0 });
-/// assert!((share - 5.0 / 9.0).abs() < 1e-6);
+/// let fraction: f32 = weighted_mean(&EveryTexel, &region, key, |tap| if 49.8 > at(tap.at.x, tap.at.y) { 1.0 } else { 0.0 });
+/// assert!((fraction - 5.0 / 9.0).abs() < 1e-6);
 /// ```
 pub fn weighted_mean<T: Add<Output = T> + Mul<f32, Output = T> + Default + Copy>(
     pattern: &impl Pattern,

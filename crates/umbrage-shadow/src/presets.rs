@@ -30,7 +30,7 @@ use umbrage_sample::{Centre, Density, Disc, Jittered};
 pub struct Preset<F> {
     /// The paper, as recipes name it.
     pub name: &'static str,
-    /// How the map is asked.
+    /// The filter over the map.
     pub filter: F,
     /// What the map must store: one of these. Never empty.
     pub expects: &'static [Stored],
@@ -147,7 +147,7 @@ pub fn fernando(bias: Bias) -> Preset<Soft<Biased>> {
 /// Donnelly & Lauritzen 2006: variance shadow maps, with a fifth of the visibility cut off against light bleeding (Lauritzen 2007, GPU Gems 3, ch. 8).
 ///
 /// The map is a [`MomentMap`](umbrage_depth::MomentMap) of [`Moments::Variance`](umbrage_depth::Moments::Variance), as those of the following presets are of
-/// the moments that they name; over a map without moments the four nearest texels are asked. Where a surface lies behind two others at different depths, light
+/// the moments that they name; over a map without moments the four nearest texels are compared. Where a surface lies behind two others at different depths, light
 /// bleeds through by what the nearer ones vary.
 ///
 /// ```

@@ -42,7 +42,7 @@ pub struct Vote {
     pub sample: FacetSample,
     /// How far the receiver's plane lies behind the facet's where the sample was taken.
     pub at_sample: f64,
-    /// The same at the place that is asked about.
+    /// The same at the place that is judged.
     pub at_place: f64,
     /// What both must be more than: what the sample's width and the gentler slope leave open, and roundings.
     pub passed: f64,
@@ -73,9 +73,9 @@ impl Crossing {
     }
 }
 
-/// Is told what a filter does, for counters and for explanations. Every method does nothing unless overridden, and `()` is the probe that costs nothing.
+/// Receives what a filter does, for counters and for explanations. Every method does nothing unless overridden, and `()` is the probe that costs nothing.
 pub trait Probe {
-    /// Whether [`Probe::judged`] is called for every place that is asked about, and [`Probe::tapped`] for every tap, which takes longer than the
+    /// Whether [`Probe::judged`] is called for every place that is judged, and [`Probe::tapped`] for every tap, which takes longer than the
     /// answer itself. A constant, so that filters are compiled without it for probes that only count.
     const EXPLAINS: bool = false;
 

@@ -167,7 +167,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
     }
 
     /// What [`settled`](Self::settled) answers, and where that is nothing, what [`share`](Self::share) does; in less time than one after the
-    /// other. Without `cull` only the second is asked: the same answer.
+    /// other. Without `cull` only the second is used: the same answer.
     #[inline(always)]
     pub fn settled_or_share(
         &mut self,
@@ -487,7 +487,7 @@ fn by_rule(view: &View, texel: Vec2) -> Option<f32> {
     answer(view.rules().verdict(view.locate(texel)))
 }
 
-/// The fraction in shadow that a verdict stands for; `None` where the map must be asked.
+/// The fraction in shadow that a verdict stands for; `None` where the map must be looked up.
 #[inline(always)]
 pub(crate) fn answer(verdict: Verdict) -> Option<f32> {
     match verdict {

@@ -73,7 +73,7 @@ pub fn sample_depth(
     if total > 0.0 { sum / total } else { sum }
 }
 
-/// `sampleBlur`: the share of the samples that are nearer. The listing calls it without its point; 0 without samples.
+/// `sampleBlur`: the fraction of the samples that are nearer. The listing calls it without its point; 0 without samples.
 pub fn sample_blur(listing: &BurleyListing, depth: f32, samples: impl IntoIterator<Item = Sample>) -> f32 {
     let (mut occluded, mut count) = (0u32, 0u32);
     for sample in samples {

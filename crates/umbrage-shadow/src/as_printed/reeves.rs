@@ -46,7 +46,7 @@ pub struct Listing {
     pub e_r4_noop: bool,
     /// Meaning of `sres`, `tres`.
     pub footprint: FootprintConvention,
-    /// Woo's archived version of 1992: what lies outside the rectangle is in shadow, and nothing is asked about z < 0. Right for the rectangle
+    /// Woo's archived version of 1992: what lies outside the rectangle is in shadow, and z < 0 is not tested. Right for the rectangle
     /// of a spot light's cone, wrong for that of the finite depths.
     pub gg_bbox_rule: bool,
 }

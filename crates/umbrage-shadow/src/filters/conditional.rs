@@ -3,7 +3,7 @@ use fearless_simd::Simd;
 use umbrage_depth::DepthMap;
 use umbrage_sample::{EveryTexel, Pattern};
 
-/// When the tangent plane is asked (Wang & Molnar 1994).
+/// When the tangent plane is compared (Wang & Molnar 1994).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum VirtualWhen {
     /// Where the texels disagree about the receiver's own depth. The paper's rule.

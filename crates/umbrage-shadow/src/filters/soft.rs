@@ -116,7 +116,7 @@ pub enum OccluderFalloff {
         /// Weight at the rim.
         rim: f32,
     },
-    /// As a power of the share of the radius: 1 − (1 − `rim`)·shareᵖ.
+    /// As a power of the fraction r of the radius: 1 − (1 − `rim`)·rᵖ.
     Power {
         /// Weight at the rim.
         rim: f32,
@@ -128,7 +128,7 @@ pub enum OccluderFalloff {
 }
 
 impl OccluderFalloff {
-    /// The weight at a share of the search's radius.
+    /// The weight at a fraction of the search's radius.
     #[inline(always)]
     pub fn weight(self, share: f32) -> f32 {
         match self {
@@ -150,7 +150,7 @@ pub struct Opacity {
     pub far: f32,
     /// World units after which the density is `far`, above 0; +∞ for `near` everywhere.
     pub fade: f32,
-    /// Shapes the way between: the share of `fade` is raised to this power before it is smoothed. 1 leaves it alone.
+    /// Shapes the way between: the fraction of `fade` is raised to this power before it is smoothed. 1 leaves it alone.
     pub gamma: f32,
 }
 
@@ -178,7 +178,7 @@ impl Opacity {
     }
 }
 
-/// The weighted mean of occluders' distances (Burley 2006). Its own type because *none* is no distance.
+/// The weighted mean of occluders' distances (Burley 2006). Its own type because *none* is not a distance.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mean {
     sum: f64,

@@ -43,9 +43,9 @@ pub enum AroundError {
 /// Williams 1978). A cube's six faces cover everything, sectors a belt; what no view sees is lit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Around<F, M> {
-    /// How the maps are asked.
+    /// The filter over the maps.
     pub filter: F,
-    /// Which map is asked.
+    /// Which map answers.
     pub evaluate: Evaluate,
     maps: Vec<M>,
 }

@@ -11,7 +11,7 @@ const ACROSS: u32 = 4;
 /// A light whose own view says where it ends, whatever its maps are: lights with a size, whose maps stand at several points of it
 /// ([`View::over_disc`]), and spots that are too wide for one map ([`View::faces_ahead`]).
 ///
-/// Where a place lies behind the light, outside its map or beyond its cone, the view's rules answer; a region on that border is asked at 16 places.
+/// Where a place lies behind the light, outside its map or beyond its cone, the view's rules answer; a region on that border is judged at 16 places.
 pub struct Bounded<'a> {
     /// The light as a whole.
     pub view: View,
@@ -37,7 +37,7 @@ impl Bounded<'_> {
         answer(verdict)
     }
 
-    /// The share of a region that the light as a whole answers, and the share of it that is dark by that.
+    /// The fraction of a region that the light as a whole answers, and the fraction of it that is dark by that.
     fn settled(&self, point: &SurfacePoint) -> (f32, f32) {
         let [a, b, c, d] = point.corners();
         let share = |answers: &[Option<f32>]| {

@@ -30,11 +30,11 @@ pub enum LatLongError {
 /// A light in all directions as one map over latitude and longitude (Reeves 1987): columns go once around +y, from −x over
 /// −z, +x and +z back; rows from +y down to −y. Depths are Euclidean.
 ///
-/// Texels are smaller toward the poles, and regions near them wider in texels. The tangent plane is no affine function here: only
+/// Texels are smaller toward the poles, and regions near them wider in texels. The tangent plane is not an affine function here: only
 /// biases are offered.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LatLong<P = Jittered> {
-    /// How it is asked.
+    /// The filter over it.
     pub filter: Pcf<P, Biased>,
     eye: DVec3,
     map: Wrapped,

@@ -8,7 +8,7 @@ use umbrage_sample::Key;
 /// The mean of several shadows, each of equal weight: over several times of a frame it is motion blur, over several points of a
 /// light its penumbra (Haeberli & Akeley 1990).
 ///
-/// All are asked with the same key. Without any, everything is lit.
+/// All get the same key. Without any, everything is lit.
 pub struct Mean<'a>(pub Vec<Box<dyn Shadow + 'a>>);
 
 impl Shadow for Mean<'_> {

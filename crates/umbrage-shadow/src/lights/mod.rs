@@ -64,7 +64,7 @@ pub trait Shadow: Send + Sync {
         }
     }
 
-    /// What is done for one region, by each map that is asked about it: in the order of the maps of a light of several, whose answers may count in
+    /// What is done for one region, by each map that takes part: in the order of the maps of a light of several, whose answers may count in
     /// part. Nothing for shadows that have no map.
     fn explain(&self, at: &SurfacePoint, key: Key) -> Vec<Explanation> {
         let _ = (at, key);

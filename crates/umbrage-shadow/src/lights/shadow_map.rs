@@ -15,9 +15,9 @@ const TOGETHER: usize = 16;
 /// A filter over a map; the map owns its view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShadowMap<F, M> {
-    /// How the map is asked.
+    /// The filter over the map.
     pub filter: F,
-    /// What is asked.
+    /// The map.
     pub map: M,
 }
 

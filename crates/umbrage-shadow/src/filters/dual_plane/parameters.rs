@@ -5,7 +5,7 @@
 /// the place itself: convex folds pass the first test, concave folds the second. What both must pass by is not a bias but what a sample cannot
 /// know: half a sample's width and a quarter of the gentler slope over it. Of the four samples around a place that disagree, the
 /// map's links say where between two of them the surface changes, and marching squares where the edge runs. A region is crossed by `across` lines: on each,
-/// `across` + 1 places are asked, and between two that answer differently the edge is looked for. What is not its [surface](umbrage_plane::Cells) is left out.
+/// `across` + 1 places are judged, and between two that answer differently the edge is looked for. What is not its [surface](umbrage_plane::Cells) is left out.
 ///
 /// Umbrage's own. Casters' planes are after Dou et al. 2014, edges in texels after Sen, Cammarano & Hanrahan 2003.
 /// Over a map that knows no facets it compares the receiver's plane at every texel of its region, which is the best that such a map can give; over a deep one as much nearer
@@ -13,7 +13,7 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct DualPlane {
-    /// Lines across the region, and parts of each between places that are asked; 1 asks about the point itself alone.
+    /// Lines across the region, and parts of each between places that are judged; 1 judges the point itself alone.
     pub across: u32,
     /// What a sample must pass by for its width: in widths of the sample. ½ is half of it.
     pub width_term: f64,

@@ -1,11 +1,11 @@
 /// What remains of a moment's 32-bit roundings in a squared difference of depths within 0..=1: the smallest that counts as one.
 const ROUNDING: f64 = 1.0 / 4_194_304.0;
 
-/// The largest share of any distribution of this mean and variance that can lie at `place` or beyond it: Chebyshev's inequality for one side, also
+/// The largest fraction of any distribution of this mean and variance that can lie at `place` or beyond it: Chebyshev's inequality for one side, also
 /// named after Cantelli. 1 for places up to the mean, and where one of the numbers is NaN.
 ///
 /// For d = place − mean > 0 and any t ≥ 0, whatever lies at the place or beyond is at least d + t away from mean − t, so that by Markov's
-/// inequality its share is at most (variance + t²) / (d + t)². The best t is variance / d, which gives variance / (variance + d²).
+/// inequality its fraction is at most (variance + t²) / (d + t)². The best t is variance / d, which gives variance / (variance + d²).
 /// A distribution of two values reaches it at the larger one.
 #[must_use]
 pub fn at_or_beyond(mean: f64, variance: f64, place: f64) -> f64 {
@@ -14,7 +14,7 @@ pub fn at_or_beyond(mean: f64, variance: f64, place: f64) -> f64 {
     if beyond > 0.0 && share < 1.0 { share } else { 1.0 }
 }
 
-/// The largest share of any distribution of positive values of this mean that can lie at `value` or beyond it: Markov's inequality, by which
+/// The largest fraction of any distribution of positive values of this mean that can lie at `value` or beyond it: Markov's inequality, by which
 /// each of them contributes `value` at least to the mean. At most 1, and 1 where one of the numbers is NaN.
 #[must_use]
 pub fn at_or_beyond_by_mean(mean: f64, value: f64) -> f64 {
@@ -22,8 +22,8 @@ pub fn at_or_beyond_by_mean(mean: f64, value: f64) -> f64 {
     if share < 1.0 { share } else { 1.0 }
 }
 
-/// The smallest share of any distribution of these four moments, the means of the first four powers, that can lie before `place`. It is a sharp bound:
-/// there is a distribution of three values that has the moments, `place` among its values, and just this share before it.
+/// The smallest fraction of any distribution of these four moments, the means of the first four powers, that can lie before `place`. It is a sharp bound:
+/// there is a distribution of three values that has the moments, `place` among its values, and just this fraction before it.
 ///
 /// Let y = x − mean, and v, c₃ and c₄ the means of its second, third and fourth power. The moments define a scalar product of
 /// quadratic polynomials, ⟨p, q⟩ = mean of p·q, under which
@@ -31,12 +31,12 @@ pub fn at_or_beyond_by_mean(mean: f64, value: f64) -> f64 {
 /// p₀ = 1, p₁ = y and p₂ = y² − v − (c₃/v)·y
 ///
 /// are orthogonal, with the squared lengths 1, v and w = c₄ − v² − c₃²/v. Their kernel is K(x, z) = 1 + p₁(x)·p₁(z)/v + p₂(x)·p₂(z)/w. The two roots
-/// of K(place, ·) are the other two values of the three-point distribution, and a value x of it has the share 1/K(x, x), which is the
+/// of K(place, ·) are the other two values of the three-point distribution, and a value x of it has the fraction 1/K(x, x), which is the
 /// most that any distribution of these moments has in one place (the classical moment problem; Akhiezer 1965, ch. 2). The bound was brought to
 /// shadows by Peters & Klein 2015, §4.
 ///
 /// Roundings can leave moments that no distribution has. Where v or w falls below what they leave open, it is raised to that: as if
-/// a share of that size were far away on both sides, by which the bound stays one. NaN gives 0.
+/// a fraction of that size were far away on both sides, by which the bound stays one. NaN gives 0.
 #[must_use]
 pub fn before(moments: [f64; 4], place: f64) -> f64 {
     let quadratics = Quadratics::of(moments);

@@ -48,10 +48,10 @@ pub struct FromMoments {
     /// on light-bleeding reduction). 0 cuts nothing off; 1 and more leave only what is wholly lit, NaN and negative numbers are 0. Penumbrae become narrower by it.
     pub bleeding: f32,
     /// Variance that counts at least, in squares of the scaled depth: what roundings are, and what a tilted plane has within a texel (Donnelly &
-    /// Lauritzen 2006). Exponentials have it times the square of their slope at the mean. Not asked by other kinds; NaN and negative numbers are 0.
+    /// Lauritzen 2006). Exponentials have it times the square of their slope at the mean. Not used by other kinds; NaN and negative numbers are 0.
     pub least_variance: f32,
-    /// The share α by which four moments are mixed with those of a distribution that is half at 0 and half at 1, so that roundings do not
-    /// make them impossible (Peters & Klein 2015); the known share of the admixture is taken out of the answer again. Not asked by other kinds; taken as within 0..=0.5, and NaN as 0.
+    /// The fraction α by which four moments are mixed with those of a distribution that is half at 0 and half at 1, so that roundings do not
+    /// make them impossible (Peters & Klein 2015); the known fraction of the admixture is taken out of the answer again. Not used by other kinds; taken as within 0..=0.5, and NaN as 0.
     pub moment_bias: f32,
 }
 
