@@ -313,3 +313,16 @@ fn lamps_with_several_maps_are_turned() {
         assert!(maps != shot("plain.png", &["--light", name]), "{name}");
     }
 }
+
+/// The page ends with the command, which an interrupt ends at once.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_the_page() {
+    let mut page = Page::new(&["gallery:grazing", "--size", "16x16", "--map-size", "32"]);
+    assert_eq!(page.get("picture?draft=1").0, 200);
+    let id = page.child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().expect("a signal").success());
+    assert_eq!(page.child.wait().expect("its end").code(), Some(130));
+    let host = page.address.split('/').nth(2).expect("a host");
+    assert!(TcpStream::connect(host).is_err(), "nobody listens any more");
+}

@@ -276,6 +276,7 @@ function listen() {
   });
   addEventListener("hashchange", () => {
     state = asking.state = new State(location.hash.slice(1));
+    chooseLight();
     showRecipe();
     controls();
     asking.change();
