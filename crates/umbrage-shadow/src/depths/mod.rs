@@ -26,8 +26,8 @@ pub trait ReceiverDepth: Send + Sync {
     /// Encloses every value that [`ReceiverDepth::lanes`] can return for taps inside `rect`, rounding included.
     fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange;
 
-    /// The same for one receiver: what all of its taps and its bounds have in common is made once. A depth for which that is nothing
-    /// leaves this alone; where it is overridden, the bits are those of the other two functions.
+    /// The same for one receiver: what all of its taps and its bounds have in common is made once. A depth that has nothing to
+    /// prepare does not override this; where it is overridden, the bits are those of the other two functions.
     #[inline(always)]
     fn prepared<'a>(&'a self, view: &'a View, receiver: &'a Receiver) -> impl Compared + 'a {
         Unprepared { depth: self, view, receiver }
@@ -36,7 +36,7 @@ pub trait ReceiverDepth: Send + Sync {
 
 /// A [`ReceiverDepth`] of one receiver.
 pub trait Compared {
-    /// Where it is looked for what a filter looks for in `region`: the region itself, unless the receiver is moved sideways before it is looked up.
+    /// The region that is looked up in place of `region`: the region itself, unless the receiver is moved sideways before it is looked up.
     /// Taps and rectangles are those of this region.
     #[inline(always)]
     fn region(&self, region: &Footprint) -> Footprint {
@@ -57,7 +57,7 @@ pub trait Compared {
     }
 }
 
-/// The answer of two ranges.
+/// The result of comparing two ranges.
 #[inline(always)]
 fn by_bounds(compared: DepthRange, stored: DepthRange) -> Option<bool> {
     if compared.max <= stored.min {
