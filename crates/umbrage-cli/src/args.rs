@@ -12,7 +12,7 @@ use std::str::FromStr;
 use umbrage_depth::Storage;
 use umbrage_engines::Engine;
 
-/// Shadows of your own scenes: maps that need no bias, and what rays say beside them
+/// Shadows of your own scenes: maps that need no bias, compared with ray-traced truth
 #[derive(Parser)]
 #[command(name = "umbrage", bin_name = "umbrage", version, propagate_version = true, max_term_width = 100)]
 pub struct Cli {
@@ -30,13 +30,13 @@ pub struct Cli {
     /// Print nothing but errors
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     pub quiet: bool,
-    /// Also say what was left alone and why
+    /// Also report what was left alone and why
     #[arg(short, long, global = true)]
     pub verbose: bool,
     /// When to colour errors and help: auto is on a terminal, unless NO_COLOR is set
     #[arg(long, global = true, value_name = "WHEN", value_enum, default_value_t = clap::ColorChoice::Auto)]
     pub color: clap::ColorChoice,
-    /// Most memory that may be asked for, such as 2GiB; 4 GiB or half of what there is unless given
+    /// Most memory that may be used, such as 2GiB; 4 GiB or half of the machine's memory unless given
     #[arg(long, global = true, value_name = "SIZE", value_parser = crate::memory::parse)]
     pub max_memory: Option<u64>,
 }
@@ -55,22 +55,22 @@ pub enum Command {
   umbrage shadow gallery:three-lights --truth --size 128x128 --format exr -o truth
   umbrage shadow gallery:three-lights --size 96x72 --shard 1/2 -o shared")]
     Shadow(ShadowArgs),
-    /// Judge recipes at map sizes, or a shadow image of your own, by ray-traced truth: every fault by name
+    /// Judge recipes at several map sizes, or a shadow image of your own, against ray-traced truth: every fault by name
     #[command(after_help = "Exit codes: 0, and 3 where something is above what --fail-above allows.
 
-Faults are shares of the pixels that are judged: those that see one surface, inside the light's map and cone, which it faces.
+Faults are fractions of the judged pixels: those that see one surface, inside the light's map and cone, that faces the light.
   false shadow  dark, and lit in truth
   false light   lit, and dark in truth
-  acne          false shadow farther from truth's edges than the filter looks: the surface shades itself
-  detachment    false light that is dark without the recipe's bias: the bias is what makes it light
-  leak          other false light farther from truth's edges than the filter looks
+  acne          false shadow farther from truth's edges than the filter reaches: the surface shadows itself
+  detachment    false light that is dark without the recipe's bias: the bias causes it
+  leak          other false light farther from truth's edges than the filter reaches
 
 Examples:
   umbrage compare gallery:contact-box --size 96x72 --samples 4 --map-size 128 -o compared
   umbrage compare gallery:table --recipe auto reeves87,bias=15 --map-size 128 256 --size 96x72 --fail-above rms=0.5,leak=5%
   umbrage compare gallery:three-lights --light red --size 128x128 --against truth/three-lights.red.exr --fail-above rms=0.02")]
     Compare(CompareArgs),
-    /// Give pictures that were drawn by shards their names, once all of them are there
+    /// Give pictures that were drawn by shards their names, once all of them are finished
     #[command(after_help = "The folder .parts in DIR is where shards leave them; it is removed.
 
 Examples:
@@ -87,33 +87,33 @@ Examples:
   umbrage jobs slurm 4 -- umbrage shadow 'shot.####.glb' --frames 1..240 --area -o shadows > job.sh"
     )]
     Jobs(JobsArgs),
-    /// Write the shadow map of each light: a file for each, of one part, or of several around a light that one map cannot hold
+    /// Write the shadow map of each light: one file for each, with one part, or with several around a light that one map cannot cover
     #[command(after_help = "Examples:
   umbrage bake gallery:contact-box -o maps
   umbrage bake gallery:three-lights --one-file --map-size 256 -o maps")]
     Bake(BakeArgs),
-    /// Find the smallest bias that ends false shadow and the largest that keeps shadows at their casters, and say what it is in an
+    /// Find the smallest bias that ends false shadow and the largest that keeps shadows at their casters, and print it in an
     /// engine's own settings
     #[command(
         after_help = "Every pixel of the camera that sees one surface facing the light is compared with rays. False shadow is the mean shadow on pixels whose
-surroundings are lit for as far as the filter reaches, false light the mean light on pixels in shadow, less what the filter alone leaves
-there. Engines' settings are exact for the receiver in the middle of the judged ones; umbrage-engines has their formulas and sources.
+surroundings are lit for as far as the filter reaches, false light the mean light on pixels in shadow, minus what the filter alone
+leaves there. Engines' settings are exact for the receiver in the middle of the judged ones; umbrage-engines has their formulas and sources.
 
 Examples:
   umbrage bias gallery:contact-box --size 96x72
   umbrage bias gallery:table --size 96x72 --engine godot -o plots"
     )]
     Bias(BiasArgs),
-    /// Say why a pixel is lit or dark: what it sees, each texel that is asked, what rays say, and the name of the fault if they differ
+    /// Explain why a pixel is lit or dark: what it sees, each texel that is read, the result by rays, and the name of the fault if they differ
     #[command(
-        after_help = "Pixels are counted from 0 in the upper left. Taps are listed as the filter takes them; their weights and answers add up to its own.
+        after_help = "Pixels are counted from 0 in the upper left. Taps are listed as the filter takes them; their weighted results add up to its own.
 
 Examples:
   umbrage explain gallery:table --pixel 60,44 --size 96x72 --recipe reeves87,bias=0
   umbrage explain gallery:contact-box --pixel 48,40 --size 96x72 -o texels.svg"
     )]
     Explain(ExplainArgs),
-    /// Say what a file of shadow maps holds
+    /// Print what a file of shadow maps holds
     #[command(after_help = "Examples:
   umbrage info maps/contact-box.exr
   umbrage info maps/three-lights.exr --part red --picture depths.png")]
@@ -121,7 +121,7 @@ Examples:
     /// Look points up in a shadow map: a line of numbers in, a fraction out
     #[command(
         after_help = "A line is x y z nx ny nz [ux uy uz vx vy vz]: position and normal in world space, and the full edges of the
-footprint; commas or blanks part them. A first line of names is skipped.
+footprint; commas or blanks separate them. A first line of names is skipped.
 
 Examples:
   echo '0 0 0 0 1 0' | umbrage lookup maps/three-lights.exr --part red
@@ -133,9 +133,9 @@ Examples:
   umbrage export gallery:contact-box -o box.glb
   umbrage export gallery:three-lights --map-size 1024 -o lights.glb")]
     Export(ExportArgs),
-    /// Show a scene on a page in a browser: change the recipe, drag the light, wipe against truth, click a pixel
+    /// Show a scene on a page in a browser: change the recipe, drag the light, compare with truth under a divider, click a pixel
     #[command(
-        after_help = "The address that is printed works on this machine alone, and as long as the command runs; Ctrl-C ends it. Nothing is written.
+        after_help = "The printed address works on this machine alone, and only as long as the command runs; Ctrl-C ends it. Nothing is written.
 
 Examples:
   umbrage view gallery:knot --open
@@ -147,7 +147,7 @@ Examples:
   umbrage recipes
   umbrage recipes woo92")]
     Recipes(RecipesArgs),
-    /// List the scenes that are built in
+    /// List the built-in scenes
     #[command(after_help = "Examples:
   umbrage scenes
   umbrage scenes --json")]
@@ -157,19 +157,19 @@ Examples:
     Generate(GenerateArgs),
 }
 
-/// The pictures that are drawn, and how they are shared out.
+/// The pictures that are drawn, and how they are divided among machines.
 #[derive(Args)]
 pub struct TakesArgs {
-    /// glTF files (.glb or .gltf), or `gallery:NAME`, scenes that are built in (`umbrage scenes` lists them)
+    /// glTF files (.glb or .gltf), or `gallery:NAME`, built-in scenes (`umbrage scenes` lists them)
     #[arg(value_name = "SCENE", required = true)]
     pub scenes: Vec<String>,
     /// Draw the frames from A to B, both included. A frame's number is its key of randomness, as --frame gives it, and stands in place of
     /// each run of # in SCENE, with zeros before it to the length of the run: in frame 7, shot.####.glb is shot.0007.glb. A SCENE without
-    /// # is the same in all frames, at the moment of --time, with other noise. Pictures have the number in four digits: in place of the
-    /// run in the scene's name, or else after the name
+    /// # is the same in all frames, at the moment of --time, with different noise. Pictures have the number in four digits: in place of
+    /// the run in the scene's name, or else after the name
     #[arg(long, value_name = "A..B", value_parser = frames, conflicts_with = "frame")]
     pub frames: Option<Frames>,
-    /// Draw only the I-th picture and every N-th after it, into the folder .parts of the output, unless they are there already; once all
+    /// Draw only the I-th picture and every N-th after it, into the folder .parts of the output, unless they are already there; once all
     /// N shards are done, `umbrage gather` gives the pictures their names
     #[arg(long, value_name = "I/N", value_parser = shard)]
     pub shard: Option<Shard>,
@@ -191,20 +191,20 @@ pub struct SceneArgs {
     /// Only these lights
     #[arg(long, value_name = "NAME", num_args = 1..)]
     pub light: Vec<String>,
-    /// Turn a light about what it shines at until it stands in this direction from there, at its old distance: degrees from +x toward +z, and
+    /// Turn a light about the point that it shines at until it lies in this direction from there, at its old distance: degrees from +x toward +z, and
     /// above the horizon; may be given for several lights
     #[arg(long, value_name = "NAME=AZIMUTH,ELEVATION", value_parser = turn_light)]
     pub turn_light: Vec<TurnLight>,
     /// The camera of a file, its first unless given
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
-    /// The moment at which a file's animation is sampled; without it things stand as the file has them
+    /// The moment at which a file's animation is sampled; without it objects are placed as in the file
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub time: Option<f64>,
     /// The animation that --time samples, the file's first unless given
     #[arg(long, value_name = "NAME", requires = "time")]
     pub animation: Option<String>,
-    /// Key of randomness; another number, other noise
+    /// Key of randomness; a different number gives different noise
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub frame: u32,
 }
@@ -215,17 +215,17 @@ pub struct RenderArgs {
     pub takes: TakesArgs,
     #[command(flatten)]
     pub scene: SceneArgs,
-    /// The picture, .png (sRGB) or .exr (linear); of several scenes, frames or shards the folder that is filled, which exists or is
-    /// written with / at its end
+    /// The picture, .png (sRGB) or .exr (linear); for several scenes, frames or shards the folder that is filled, which exists or
+    /// is written with / at its end
     #[arg(short, long, value_name = "IMAGE|DIR")]
     pub output: PathBuf,
-    /// Of pictures in a folder: png (sRGB) or exr (linear); png unless given
+    /// The format of pictures in a folder: png (sRGB) or exr (linear); png unless given
     #[arg(long, value_enum)]
     pub format: Option<Format>,
     /// Samples for each pixel: 1 (its centre), 4, 16 or 64
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = samples)]
     pub samples: u32,
-    /// Cast rays instead of asking maps
+    /// Cast rays instead of looking maps up
     #[arg(long)]
     pub truth: bool,
 }
@@ -245,13 +245,13 @@ pub struct ShadowArgs {
     /// 16-bit linear grey, or 32-bit floats
     #[arg(long, value_enum, default_value_t = Format::Png)]
     pub format: Format,
-    /// Where maps lie: as the light says, or about what the camera sees
+    /// Where maps lie: as the light defines, or fitted to what the camera sees
     #[arg(long, value_enum, default_value_t = WindowArg::File)]
     pub window: WindowArg,
-    /// Filter for the size of each light, as the file gives it in `extras`, or with a radius of so many world units (of a sun: radians)
+    /// Filter for the size of each light, as the file gives it in `extras`, or for this radius in world units (of a sun: radians)
     #[arg(long, value_name = "RADIUS", num_args = 0..=1, require_equals = true, default_missing_value = "file", value_parser = area)]
     pub area: Option<Area>,
-    /// Cast rays instead of asking maps
+    /// Cast rays instead of looking maps up
     #[arg(long)]
     pub truth: bool,
 }
@@ -271,7 +271,7 @@ pub struct JobsArgs {
     /// How many shards share the pictures
     #[arg(value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_PICTURES as i64))]
     pub shards: u32,
-    /// What is shared: `umbrage render` or `umbrage shadow` with all that follows, but --shard
+    /// The shared command line: `umbrage render` or `umbrage shadow` with all that follows, except --shard
     #[arg(value_name = "COMMAND LINE", last = true, required = true)]
     pub words: Vec<String>,
 }
@@ -291,7 +291,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// What names of such files end in.
+    /// The extension of such files.
     pub fn extension(self) -> &'static str {
         if self == Self::Png { "png" } else { "exr" }
     }
@@ -305,7 +305,7 @@ pub enum WindowArg {
 
 #[derive(Args)]
 pub struct BakeArgs {
-    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a scene that is built in (`umbrage scenes` lists them)
+    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a built-in scene (`umbrage scenes` lists them)
     #[arg(value_name = "SCENE")]
     pub source: String,
     #[command(flatten)]
@@ -313,10 +313,10 @@ pub struct BakeArgs {
     /// The folder that is filled
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
-    /// What each texel keeps
+    /// What each texel stores
     #[arg(long, value_enum, default_value_t = RuleArg::Facets)]
     pub rule: RuleArg,
-    /// How maps of one depth per texel are kept: raw files hold every texel, bbox files the rectangle around all surfaces
+    /// How maps of one depth per texel are stored: raw files hold every texel, bbox files the rectangle around all surfaces
     #[arg(long, value_name = "raw|bbox|tiled", default_value = "raw")]
     pub storage: Storage,
     /// Write one file, SCENE.exr, with the parts of all lights
@@ -326,18 +326,18 @@ pub struct BakeArgs {
 
 #[derive(Args)]
 pub struct BiasArgs {
-    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a scene that is built in (`umbrage scenes` lists them)
+    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a built-in scene (`umbrage scenes` lists them)
     #[arg(value_name = "SCENE")]
     pub source: String,
     #[command(flatten)]
     pub scene: SceneArgs,
-    /// Print the settings of this engine alone, and where they are from
+    /// Print the settings of this engine alone, and their sources
     #[arg(long, value_name = "E", value_parser = <Engine as FromStr>::from_str)]
     pub engine: Option<Engine>,
     /// Half of the filter's width, texels; 0 for one texel
     #[arg(long, value_name = "TEXELS", default_value_t = 1.5, value_parser = radius)]
     pub radius: f64,
-    /// How much false shadow and how much false light counts as none, %
+    /// The percentage of false shadow, and of false light, that counts as none
     #[arg(long, value_name = "PERCENT", default_value_t = 0.5, value_parser = tolerance)]
     pub tolerance: f64,
     /// Fill this folder with a plot of false light against false shadow for each light
@@ -347,7 +347,7 @@ pub struct BiasArgs {
 
 #[derive(Args)]
 pub struct ExplainArgs {
-    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a scene that is built in (`umbrage scenes` lists them)
+    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a built-in scene (`umbrage scenes` lists them)
     #[arg(value_name = "SCENE")]
     pub source: String,
     #[command(flatten)]
@@ -355,7 +355,7 @@ pub struct ExplainArgs {
     /// Column and row of a pixel; may be given several times
     #[arg(long, value_name = "X,Y", required = true, value_parser = pixel)]
     pub pixel: Vec<[u32; 2]>,
-    /// Samples for each pixel, as `umbrage shadow` has them
+    /// Samples for each pixel, as for `umbrage shadow`
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = samples)]
     pub samples: u32,
     /// Draw the texels around the first surface of the pixel, with its footprint and the taps
@@ -365,7 +365,7 @@ pub struct ExplainArgs {
 
 #[derive(Args)]
 pub struct ViewArgs {
-    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a scene that is built in (`umbrage scenes` lists them)
+    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a built-in scene (`umbrage scenes` lists them)
     #[arg(value_name = "SCENE")]
     pub source: String,
     #[command(flatten)]
@@ -373,10 +373,10 @@ pub struct ViewArgs {
     /// Samples for each pixel at first: 1 (its centre), 4, 16 or 64
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = samples)]
     pub samples: u32,
-    /// The port that is listened on, a free one unless given
+    /// The port to listen on, a free one unless given
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub port: u16,
-    /// Open the page in the browser that the system has for addresses
+    /// Open the page in the system's default browser
     #[arg(long)]
     pub open: bool,
 }
@@ -393,7 +393,7 @@ pub enum RuleArg {
 
 #[derive(Args)]
 pub struct ExportArgs {
-    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a scene that is built in (`umbrage scenes` lists them)
+    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a built-in scene (`umbrage scenes` lists them)
     #[arg(value_name = "SCENE")]
     pub source: String,
     #[command(flatten)]
@@ -412,10 +412,10 @@ pub struct MapArgs {
     /// Only the part of this name, or those of the light of this name
     #[arg(long, value_name = "NAME")]
     pub part: Option<String>,
-    /// What another maker's file calls the channel of depths; Z, or the only one that ends in .Z, unless given
+    /// The channel of depths in another program's file; Z, or the only one that ends in .Z, unless given
     #[arg(long, value_name = "NAME")]
     pub channel: Option<String>,
-    /// Where the light of another maker's file stands: a JSON file, or its text
+    /// The view of the light of another program's file: a JSON file, or its text
     ///
     /// {"worldtocamera": [16 numbers], "worldtoscreen": [16 numbers], "near": N, "far": N, "depth": "axial"}
     ///
@@ -431,7 +431,7 @@ pub struct MapArgs {
 pub struct InfoArgs {
     #[command(flatten)]
     pub maps: MapArgs,
-    /// Also draw the depths in grey, near is dark; those of several parts beside one another
+    /// Also draw the depths in grey, near ones dark; those of several parts side by side
     #[arg(long, value_name = "IMAGE.png")]
     pub picture: Option<PathBuf>,
 }

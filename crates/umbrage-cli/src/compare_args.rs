@@ -7,10 +7,10 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct CompareArgs {
-    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a scene that is built in (`umbrage scenes` lists them)
+    /// A glTF file (.glb or .gltf), or `gallery:NAME`, a built-in scene (`umbrage scenes` lists them)
     #[arg(value_name = "SCENE")]
     pub source: String,
-    /// The algorithms, as --recipe of the other commands has them; auto and each paper's unless given, and none beside --against
+    /// The algorithms, as for --recipe of the other commands; auto and each paper's unless given, and none with --against
     #[arg(long, value_name = "R", num_args = 1..)]
     pub recipe: Vec<String>,
     /// Sides of the maps, texels
@@ -19,7 +19,7 @@ pub struct CompareArgs {
     /// Only these lights
     #[arg(long, value_name = "NAME", num_args = 1..)]
     pub light: Vec<String>,
-    /// Turn a light about what it shines at until it stands in this direction from there, at its old distance: degrees from +x toward +z, and
+    /// Turn a light about the point that it shines at until it lies in this direction from there, at its old distance: degrees from +x toward +z, and
     /// above the horizon; may be given for several lights
     #[arg(long, value_name = "NAME=AZIMUTH,ELEVATION", value_parser = turn_light)]
     pub turn_light: Vec<TurnLight>,
@@ -32,32 +32,32 @@ pub struct CompareArgs {
     /// The camera of a file, its first unless given
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
-    /// The moment at which a file's animation is sampled; without it things stand as the file has them
+    /// The moment at which a file's animation is sampled; without it objects are placed as in the file
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub time: Option<f64>,
     /// The animation that --time samples, the file's first unless given
     #[arg(long, value_name = "NAME", requires = "time")]
     pub animation: Option<String>,
-    /// Key of randomness; another number, other noise
+    /// Key of randomness; a different number gives different noise
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub frame: u32,
-    /// Truth and recipes for the size of each light, as the file gives it in `extras`, or with a radius of so many world units (of a sun: radians)
+    /// Truth and recipes for the size of each light, as the file gives it in `extras`, or for this radius in world units (of a sun: radians)
     #[arg(long, value_name = "RADIUS", num_args = 0..=1, require_equals = true, default_missing_value = "file", value_parser = area)]
     pub area: Option<Area>,
-    /// The folder that is filled with a page that shows results beside truth (index.html), heat maps of the faults, and report.json, which is what
-    /// --json prints
+    /// The folder that is filled with a page that compares results with truth (index.html), heat maps of the faults, and report.json, which is
+    /// what --json prints
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Judge a shadow image of your own too, PNG or EXR: the fraction in shadow, without a curve, of the size of the pictures
+    /// Also judge a shadow image of your own, PNG or EXR: the fraction in shadow, linear, of the size of the pictures
     #[arg(long, value_name = "IMAGE")]
     pub against: Option<PathBuf>,
-    /// The image of --against holds the share of the light that arrives, not that in shadow
+    /// The image of --against holds the fraction of the light that arrives, not the fraction in shadow
     #[arg(long, requires = "against")]
     pub invert: bool,
     /// Exit with 3 where a recipe or the image exceeds one of these, such as rms=0.02,acne=0.1%
     ///
-    /// Of each recipe and of the image: rms, false-shadow, false-light, acne, penumbra-ratio, displacement, displacement-x, displacement-y, edge-shift,
-    /// edge-shift-signed. Of recipes alone: detachment, leak, detached, detached-texels, noise, bake-ms, look-up-ns.
+    /// For each recipe and the image: rms, false-shadow, false-light, acne, penumbra-ratio, displacement, displacement-x, displacement-y, edge-shift,
+    /// edge-shift-signed. For recipes alone: detachment, leak, detached, detached-texels, noise, bake-ms, look-up-ns.
     #[arg(long, value_name = "NAME=NUMBER,..")]
     pub fail_above: Option<String>,
 }

@@ -1,4 +1,4 @@
-//! Numbers that stand for what a picture is drawn from.
+//! Digests of what a picture is drawn from.
 
 use crate::memory::{self, Need};
 use crate::stage::GALLERY;
@@ -6,8 +6,8 @@ use serde_json::Value;
 use std::path::{Component, Path, PathBuf};
 use umbrage_io::{file_bytes, read_bytes};
 
-/// A number that depends on every byte that it is given, in order (128-bit FNV-1a). It is no seal: whoever wants to can find other bytes
-/// of the same number.
+/// A number that depends on every byte that it is given, in order (128-bit FNV-1a). It is not cryptographic: other bytes with the same
+/// number can be found on purpose.
 pub struct Digest(u128);
 
 impl Digest {

@@ -1,4 +1,4 @@
-//! What commands that draw have in common.
+//! What the commands that draw have in common.
 
 use crate::args::TakesArgs;
 use crate::report::Line;
@@ -11,7 +11,7 @@ use umbrage_io::{Fault, IoError, write_bytes};
 
 /// A command that draws pictures of scenes.
 pub trait Draws {
-    /// All that its pictures depend on beside the scene, the frame and the light, by the names of the options.
+    /// All that its pictures depend on besides the scene, the frame and the light, by the names of the options.
     ///
     /// # Errors
     /// An option that cannot be read.
@@ -23,7 +23,7 @@ pub trait Draws {
     /// A scene that cannot be used.
     fn lights(&self, source: &str, shell: &mut Shell<'_>) -> anyhow::Result<Vec<Option<String>>>;
 
-    /// What a picture is called in its folder.
+    /// The name of a picture in its folder.
     fn file(&self, take: &Take, light: Option<&str>) -> PathBuf;
 
     /// Reads a scene.
@@ -32,7 +32,7 @@ pub trait Draws {
     /// A scene that cannot be used.
     fn stage(&self, source: &str, shell: &mut Shell<'_>) -> anyhow::Result<Stage>;
 
-    /// Draws the pictures of a take that are wanted, by the names that [`Self::file`] gives them, and keeps each as soon as it is drawn.
+    /// Draws the wanted pictures of a take, by the names that [`Self::file`] gives them, and passes each to `keep` as soon as it is drawn.
     ///
     /// # Errors
     /// A light that cannot be used, or what `keep` returned.

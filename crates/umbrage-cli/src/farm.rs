@@ -1,4 +1,4 @@
-//! `umbrage jobs`: schedulers have their own ways to start work, to try again and to wait; here they are given work in their own form.
+//! `umbrage jobs`: schedulers have their own ways to start, retry and wait for work; here the work is put into their own forms.
 
 use crate::args::{Cli, Command, JobsArgs, Scheduler};
 use crate::render;

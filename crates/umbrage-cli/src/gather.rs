@@ -12,7 +12,7 @@ use umbrage_io::{IoError, file_bytes, read_bytes, write_bytes};
 
 pub fn run(cli: &Cli, args: &GatherArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {
     let folder = &args.folder;
-    // Only so that a folder which is not there is an error.
+    // Reads the folder so that a missing one is an error.
     file_bytes(folder)?;
     let parts = parts_of(folder);
     if !path_in(&parts).is_file() {
@@ -27,7 +27,7 @@ pub fn run(cli: &Cli, args: &GatherArgs, shell: &mut Shell<'_>) -> anyhow::Resul
         bail!("{folder}: {count} of {all} pictures are not drawn yet: {}", missing.join(", "));
     }
     let mut files: Vec<PathBuf> = Vec::new();
-    // A part and the picture that it may be already are both held.
+    // A part and the picture that may already be there are both held in memory.
     let most_bytes = cli.max_memory.unwrap_or_else(memory::default) / 2;
     for (picture, part) in &jobs {
         let path = folder.join(picture);
@@ -41,8 +41,8 @@ pub fn run(cli: &Cli, args: &GatherArgs, shell: &mut Shell<'_>) -> anyhow::Resul
     written(cli, shell, &files, [("there", json!(there))])
 }
 
-/// Gives a part its name, and returns whether it had it not. It is copied rather than renamed, so that whatever stops this, all parts are
-/// there when it is tried again.
+/// Gives a part its name, and returns whether it did not have it before. It is copied rather than renamed, so that if this is
+/// interrupted, all parts are still there for the next attempt.
 fn place(part: &Path, picture: &Path, most_bytes: u64) -> Result<bool, IoError> {
     let bytes = read_bytes(part, most_bytes)?;
     let is_there = file_bytes(picture).is_ok_and(|length| length == bytes.len() as u64)

@@ -38,7 +38,7 @@ pub fn run(cli: &Cli, args: &InfoArgs, shell: &mut Shell<'_>) -> anyhow::Result<
     Ok(())
 }
 
-/// What is said of a map.
+/// What is reported of a map.
 struct Facts<'a> {
     name: &'a str,
     view: View,

@@ -52,8 +52,8 @@ use shell::{Exceeded, Output, Shell, Usage, line};
 use std::ffi::OsString;
 use std::io::{BufRead, ErrorKind, Write};
 
-/// Runs a command line, the program's name first, and returns its exit code: 0 for success, 1 for a failure, 2 for a command line that makes no
-/// sense, 3 where `compare` found more than `--fail-above` allows. Every failure is one line on `err`. If `err` `is_terminal`, errors have colours and
+/// Runs a command line, the program's name first, and returns its exit code: 0 for success, 1 for a failure, 2 for an invalid command line, 3
+/// where `compare` found more than `--fail-above` allows. Every failure is one line on `err`. If `err` `is_terminal`, errors have colours and
 /// progress bars are drawn on the process's standard error.
 pub fn run(
     args: impl IntoIterator<Item = OsString>,
@@ -77,7 +77,7 @@ pub fn run(
     let mut shell = Shell { input, out: &mut out, err, quiet: cli.quiet, verbose: cli.verbose, is_terminal };
     let done = with_threads(cli.threads.map(usize::from), &mut shell, |shell| {
         command(&cli, shell)?;
-        // What waits in a buffer is not written yet.
+        // What is still in a buffer is not written yet.
         Ok(shell.out.flush()?)
     });
     match done {
@@ -128,20 +128,20 @@ fn command(cli: &Cli, shell: &mut Shell<'_>) -> anyhow::Result<()> {
     }
 }
 
-/// Calls `work` on so many threads; no result depends on their number.
+/// Calls `work` on this many threads; no result depends on their number.
 fn with_threads(
     threads: Option<usize>,
     shell: &mut Shell<'_>,
     work: impl FnOnce(&mut Shell<'_>) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
     if let Some(threads) = threads {
-        // Another pool may be there already in a program that calls this function twice.
+        // A pool may already exist in a program that calls this function twice.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
     }
     work(shell)
 }
 
-/// Whether whoever read what was written has gone away.
+/// Whether the reader of what was written has gone away.
 fn is_closed(error: &anyhow::Error) -> bool {
     let closed = |cause: &std::io::Error| cause.kind() == ErrorKind::BrokenPipe;
     error.chain().any(|cause| cause.downcast_ref::<std::io::Error>().is_some_and(closed))

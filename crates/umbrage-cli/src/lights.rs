@@ -24,7 +24,7 @@ impl Lamp {
     }
 }
 
-/// Of the lights that cast shadows those that are named, or all where none is.
+/// The lights that cast shadows and are named, or all of them where none is named.
 ///
 /// # Errors
 /// A name that no light has.
@@ -36,7 +36,7 @@ pub fn wanted(scene: &Scene, mut lamps: Vec<Lamp>, wanted: &[String]) -> anyhow:
     Ok(lamps)
 }
 
-/// Nothing, if one of the lights has a name.
+/// Succeeds if one of the lights has this name.
 ///
 /// # Errors
 /// One line with the names that there are; `option` is what the name was given by.

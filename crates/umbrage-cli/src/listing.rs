@@ -40,7 +40,7 @@ pub fn recipes(cli: &Cli, args: &RecipesArgs, shell: &mut Shell<'_>) -> anyhow::
         for preset in papers {
             writeln!(shell.out, "{:20} {}", preset.name(), preset.about())?;
         }
-        writeln!(shell.out, "\nWhat engines do by default, each with its own kernel and bias:")?;
+        writeln!(shell.out, "\nEngines' defaults, each with its own kernel and bias:")?;
         for preset in engines {
             writeln!(shell.out, "{:20} {}", preset.name(), preset.about())?;
         }

@@ -50,7 +50,7 @@ impl Manifest {
     /// Writes the list into a folder of parts, unless it is there already.
     ///
     /// # Errors
-    /// Another list is there: the first thing that differs, of an option as a command line that makes no sense.
+    /// A different list is there: the first difference; that of an option counts as an invalid command line.
     pub fn write(&self, parts: &Path) -> anyhow::Result<()> {
         let path = path_in(parts);
         let own = self.json();
@@ -84,7 +84,7 @@ impl Manifest {
 /// # Errors
 /// A file that cannot be written or removed.
 pub fn remove(parts: &Path) -> Result<(), IoError> {
-    // Whatever stops this, parts that are gone already are not missing.
+    // If this is interrupted, parts that are already removed do not count as missing.
     write_bytes(&path_in(parts), json!({ "jobs": [] }).to_string().as_bytes())?;
     remove_folder(parts)
 }
@@ -92,7 +92,7 @@ pub fn remove(parts: &Path) -> Result<(), IoError> {
 /// The names of the pictures in a folder of parts, each with its part's.
 ///
 /// # Errors
-/// A list that cannot be read, or one that this program does not write.
+/// A list that cannot be read, or one that this program would not write.
 pub fn read(parts: &Path) -> anyhow::Result<Vec<(String, String)>> {
     let path = path_in(parts);
     let value = value(&path)?;

@@ -11,10 +11,10 @@ use umbrage_io::{
 };
 use umbrage_plane::Kind;
 
-/// Longer texts of a view are not read, bytes.
+/// The longest text of a view that is read, bytes.
 const MOST_VIEW_BYTES: u64 = 1 << 16;
 
-/// Reads the maps that are wanted of a file, if it is of a size that may be read.
+/// Reads the wanted maps of a file, if the file is not too large.
 ///
 /// # Errors
 /// One line with the file.
@@ -65,7 +65,7 @@ pub fn of_one_light(mut maps: Vec<NamedMap>, path: &Path) -> anyhow::Result<Vec<
     Ok(maps)
 }
 
-/// A view as the command line gives it: JSON, or the name of a file of it.
+/// A view as given on the command line: JSON, or the name of a file that holds it.
 fn view(text: &str) -> anyhow::Result<GivenView> {
     if text.trim_start().starts_with('{') {
         return parsed(text).map_err(|problem| Usage(format!("--view: {problem}")).into());

@@ -1,4 +1,4 @@
-//! How much memory a command may ask for, and how much it will: a formula that a user can compute.
+//! How much memory a command may use, and how much it will: a formula that a user can compute.
 
 use anyhow::bail;
 use glam::UVec2;
@@ -18,7 +18,7 @@ const PER_PIXEL: u64 = 512;
 const PER_TRIANGLE: u64 = 1024;
 /// Bytes for each texel of each map.
 const PER_TEXEL: u64 = 64;
-/// Bytes for each texel of the finished maps of a light with a size; only one of them at a time is being made.
+/// Bytes for each texel of the finished maps of an area light; only one of them at a time is being made.
 const PER_KEPT_TEXEL: u64 = 16;
 
 /// Bytes for each pixel of each result that is kept beside truth.
@@ -32,7 +32,7 @@ pub struct Need {
     pub samples: u32,
     pub triangles: u64,
     pub texels: u64,
-    /// Texels of all maps of a light with a size.
+    /// Texels of all maps of an area light.
     pub kept_texels: u64,
     /// Pictures of results that are kept beside truth.
     pub results: u64,
@@ -40,7 +40,7 @@ pub struct Need {
 
 impl Need {
     /// 64 MiB + 8 × the file + 512 bytes for each pixel + 64 for each sample + 1024 for each triangle + 64 for each texel of a map
-    /// + 16 for each texel of all maps of a light with a size + 128 for each pixel of each result that is kept beside truth.
+    /// + 16 for each texel of all maps of an area light + 128 for each pixel of each result that is kept beside truth.
     pub fn bytes(&self) -> u64 {
         let pixels = u64::from(self.picture.x) * u64::from(self.picture.y);
         let picture = pixels.saturating_mul(PER_PIXEL + PER_SAMPLE * u64::from(self.samples));
@@ -62,7 +62,7 @@ impl Need {
         self.left(most) / PER_TEXEL
     }
 
-    /// Nothing, if so much may be held.
+    /// Succeeds if this much may be held.
     ///
     /// # Errors
     /// One line that names both numbers.

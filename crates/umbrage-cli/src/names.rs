@@ -1,4 +1,4 @@
-//! Names of files, made of names that people gave.
+//! Names of files, made from names that people gave.
 
 use std::path::{Path, PathBuf};
 

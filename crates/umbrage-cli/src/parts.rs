@@ -1,5 +1,5 @@
-//! A shard: its share of the pictures of a command line. Each is written under a name made of all that it is drawn from, so that a shard
-//! that was stopped goes on where it was, and no picture of another scene or of other options is taken for one of these.
+//! A shard: its part of the pictures of a command line. Each is written under a name derived from everything that it is drawn from, so
+//! that a shard that was stopped resumes where it was, and no picture of another scene or of other options is mistaken for one of these.
 
 use crate::args::{Cli, Command, TakesArgs};
 use crate::digest::{self, Digest};
@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use umbrage_io::{Fault, create_folder};
 
-/// Draws a shard's share of all takes into the parts of a folder.
+/// Draws a shard's part of all takes into the parts of a folder.
 ///
 /// # Errors
 /// The first thing that failed. Parts that were finished before stay.
@@ -63,7 +63,7 @@ pub fn run(
     written(cli, shell, &files, [("lights", lights.into()), ("pictures", counts)])
 }
 
-/// What must be the same for all shards, beside the pictures themselves.
+/// What must be the same for all shards, besides the pictures themselves.
 fn head(cli: &Cli, args: &TakesArgs, command: &dyn Draws) -> anyhow::Result<Map<String, Value>> {
     let mut all = command.options()?;
     let frames = args.frames.as_ref().map(|frames| format!("{}..{}", frames.start(), frames.end()));

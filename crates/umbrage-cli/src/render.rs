@@ -26,7 +26,7 @@ pub fn run(cli: &Cli, args: &RenderArgs, shell: &mut Shell<'_>) -> anyhow::Resul
 /// The format of the pictures, one or those of a folder.
 ///
 /// # Errors
-/// An output that does not go with what is drawn.
+/// An output that does not fit what is drawn.
 pub fn check(args: &RenderArgs, fills_a_folder: bool) -> anyhow::Result<Format> {
     let output = args.output.display();
     let no = |problem: &str| Err(Usage(format!("--output {output}: {problem}")).into());
@@ -124,7 +124,7 @@ impl Draws for Render<'_> {
     }
 }
 
-/// A light's shadow, and what is said of it.
+/// A light's shadow, and what is reported of it.
 struct Light<'a> {
     recipe: String,
     bytes: usize,
@@ -140,7 +140,7 @@ impl Light<'_> {
     }
 }
 
-/// Puts out all lights that are not wanted.
+/// Switches off all lights that are not wanted.
 pub fn keep_wanted(stage: &mut Stage) {
     let wanted: Vec<usize> = stage.lamps.iter().map(|lamp| lamp.light).collect();
     let mut index = 0..;

@@ -135,7 +135,7 @@ pub fn options(cli: &Cli, args: &SceneArgs) -> anyhow::Result<Map<String, Value>
     Ok(options.map(|(name, value)| (name.to_owned(), value)).into_iter().collect())
 }
 
-/// So many samples for each pixel; one is its centre.
+/// This many samples for each pixel; one is its centre.
 pub fn frame(samples: u32, seed: u32, number: u32) -> Frame {
     if samples == 1 {
         return Frame { seed, number, ..Frame::CENTRES };
@@ -143,10 +143,10 @@ pub fn frame(samples: u32, seed: u32, number: u32) -> Frame {
     Frame { axis: samples.isqrt(), seed, number, ..Frame::default() }
 }
 
-/// The radius of a light that is to be filtered for: world units, or the tangent of a sun's angle.
+/// The radius of a light to filter for: world units, or the tangent of a sun's angle.
 ///
 /// # Errors
-/// A light without a radius where the scene's is asked for.
+/// A light without a radius where the scene's is needed.
 pub fn area(stage: &Stage, lamp: &Lamp, area: Option<Area>) -> anyhow::Result<Option<f64>> {
     let radius = match area {
         None => return Ok(None),
@@ -164,7 +164,7 @@ pub fn area(stage: &Stage, lamp: &Lamp, area: Option<Area>) -> anyhow::Result<Op
 /// A recipe with the window and the size of the light that the command line names.
 ///
 /// # Errors
-/// A recipe that does not know them.
+/// A recipe without fields for them.
 pub fn recipe(recipe: &Recipe, area: Option<f64>, window: WindowArg) -> anyhow::Result<Recipe> {
     let mut text = recipe.to_string();
     if window == WindowArg::Fitted {
@@ -176,7 +176,7 @@ pub fn recipe(recipe: &Recipe, area: Option<f64>, window: WindowArg) -> anyhow::
     text.parse().map_err(|error| Usage(format!("recipe {text}: {error}")).into())
 }
 
-/// The scene under so many copies of one of its lights, with all objects receiving the shadow.
+/// The scene under this many copies of one of its lights, with all objects receiving the shadow.
 pub fn lit_alone(scene: &Scene, lamp: &Lamp, copies: usize) -> Scene {
     let mut one = Scene { lights: vec![scene.lights[lamp.light].clone(); copies], ..scene.clone() };
     one.objects.iter_mut().for_each(|object| object.receives = true);
@@ -224,7 +224,7 @@ pub fn rays<'a>(
     }
 }
 
-/// A shadow in which surfaces that face away from the light are dark, whatever maps say of them.
+/// A shadow in which surfaces that face away from the light are dark, whatever maps hold for them.
 pub struct Turned<'a> {
     pub shadow: &'a dyn Shadow,
     pub light: &'a View,

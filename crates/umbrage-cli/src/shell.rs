@@ -1,15 +1,15 @@
-//! Where a command reads and writes, and how it says what is wrong.
+//! Where a command reads and writes, and how it reports errors.
 
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use std::io::{self, BufRead, Write};
 use std::time::Duration;
 
-/// What a command reads and writes beside files.
+/// What a command reads and writes besides files.
 pub struct Shell<'a> {
     pub input: &'a mut dyn BufRead,
     /// Data.
     pub out: &'a mut dyn Write,
-    /// What people read.
+    /// Messages for people.
     pub err: &'a mut dyn Write,
     /// `-q`: nothing but errors.
     pub quiet: bool,
@@ -20,14 +20,14 @@ pub struct Shell<'a> {
 }
 
 impl Shell<'_> {
-    /// A line for people, unless they want none. Where it cannot be written there is nobody to tell.
+    /// A line for people, unless they want none. Where it cannot be written, the error has nowhere to go.
     pub fn note(&mut self, line: &str) {
         if !self.quiet {
             let _ = writeln!(self.err, "{line}");
         }
     }
 
-    /// A progress bar of so many steps, which disappears when it is dropped; hidden unless standard error is a terminal.
+    /// A progress bar of this many steps, which disappears when it is dropped; hidden unless standard error is a terminal.
     pub fn progress(&self, steps: usize) -> ProgressBar {
         if !self.is_terminal || self.quiet {
             return ProgressBar::hidden();
@@ -57,7 +57,7 @@ fn named(error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("standard output: {error}"))
 }
 
-/// What was asked for cannot be had: exit code 2, as for any other command line that makes no sense.
+/// The command line demands something impossible: exit code 2, as for any other invalid command line.
 #[derive(Debug)]
 pub struct Usage(pub String);
 
@@ -69,7 +69,7 @@ impl std::fmt::Display for Usage {
 
 impl std::error::Error for Usage {}
 
-/// Something is worse than it may be: exit code 3.
+/// Something exceeds its limit: exit code 3.
 #[derive(Debug)]
 pub struct Exceeded(pub String);
 
@@ -81,7 +81,7 @@ impl std::fmt::Display for Exceeded {
 
 impl std::error::Error for Exceeded {}
 
-/// A word as a shell takes it for that word.
+/// A word quoted for a shell where it needs it.
 pub fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-./:=,+@%".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {

@@ -15,13 +15,13 @@ use umbrage_plane::{Projection, View, ViewError};
 use umbrage_recipe::{Recipe, RecipeError};
 use umbrage_scene::{Scene, gallery};
 
-/// What stands before the name of a scene that is built in.
+/// The prefix of the name of a built-in scene.
 pub const GALLERY: &str = "gallery:";
 
 /// Rows of a picture whose size is not given.
 const HEIGHT: u32 = 512;
 
-/// A scene with its camera and maps as the command line wants them.
+/// A scene with its camera and maps as given on the command line.
 pub struct Stage {
     pub scene: Scene,
     /// The lights that cast shadows and are wanted.
@@ -40,7 +40,7 @@ impl Stage {
     /// The scene of a file or of the gallery, by `source`. `samples` are those of each pixel of a picture, 0 where none is drawn.
     ///
     /// # Errors
-    /// One line that says what is wrong with the scene or with what was asked of it; also when it needs more than `max_memory`.
+    /// One line that says what is wrong with the scene or with what is required of it; also when it needs more than `max_memory`.
     pub fn new(
         source: &str,
         args: &SceneArgs,
@@ -53,10 +53,10 @@ impl Stage {
         Ok(stage)
     }
 
-    /// The same whatever it needs.
+    /// The same however much memory it needs.
     ///
     /// # Errors
-    /// One line that says what is wrong with the scene or with what was asked of it.
+    /// One line that says what is wrong with the scene or with what is required of it.
     pub fn unchecked(
         source: &str,
         args: &SceneArgs,
@@ -96,7 +96,7 @@ impl Stage {
         Ok(Self { scene, lamps, casting, recipe, max_memory, need })
     }
 
-    /// The same with maps of so many texels a side.
+    /// The same with maps of this many texels per side.
     ///
     /// # Errors
     /// A size that a light's view cannot have.
@@ -152,9 +152,7 @@ fn built_in(name: &str, args: &SceneArgs) -> anyhow::Result<(Scene, Vec<umbrage_
         return Err(Usage(format!("scene gallery:{name} is not known; `umbrage scenes` lists them")).into());
     };
     if args.camera.is_some() || args.time.is_some() {
-        return Err(
-            Usage("--camera and --time: scenes that are built in have one camera and stand still".into()).into()
-        );
+        return Err(Usage("--camera and --time: built-in scenes have one camera and stand still".into()).into());
     }
     let mut scene = make();
     let aspect = f64::from(scene.camera.size().x) / f64::from(scene.camera.size().y);
@@ -205,7 +203,7 @@ fn casting(scene: &Scene, lamps: Vec<umbrage_gltf::Lamp>) -> Vec<Lamp> {
     lamps.into_iter().enumerate().filter_map(lamp).collect()
 }
 
-/// A recipe as it is written, or as a TOML file holds it; `rsl,` and the parameters of that language's `shadow()` are one for maps of `map_size` texels a side.
+/// A recipe from its text, or from a TOML file; `rsl,` and the parameters of that language's `shadow()` are one for maps of `map_size` texels per side.
 ///
 /// # Errors
 /// What is wrong with it, after the file's name where it is one.

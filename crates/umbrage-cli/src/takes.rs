@@ -12,11 +12,11 @@ use std::path::Path;
 /// A scene at a frame.
 #[derive(Clone, Debug)]
 pub struct Take {
-    /// The scene, as the command line would name it alone.
+    /// The scene, as it would be named alone on a command line.
     pub source: String,
     /// Key of randomness.
     pub frame: u32,
-    /// What its pictures are called.
+    /// The name of its pictures.
     pub name: String,
     /// What stands before a light's name where progress is shown: nothing where there is one take.
     pub label: String,
@@ -61,7 +61,7 @@ impl TakesArgs {
     }
 }
 
-/// What pictures of a scene are called: the scene's own name, and a frame's number in place of a run of `#` in it, or else after it.
+/// The name of a scene's pictures: the scene's own name, and a frame's number in place of a run of `#` in it, or else after it.
 fn name(scene: &str, frame: Option<u32>) -> String {
     /// Digits of a frame's number in names.
     const DIGITS: usize = 4;
@@ -76,7 +76,7 @@ fn name(scene: &str, frame: Option<u32>) -> String {
     }
 }
 
-/// A text with a number in place of each run of `#`, of so many digits at least, or else as many as the run is long.
+/// A text with a number in place of each run of `#`, with at least this many digits, or else as many as the run is long.
 fn numbered(text: &str, number: u32, digits: Option<usize>) -> String {
     /// As long as a file's name may be; far longer numbers cannot be formatted.
     const MOST_DIGITS: usize = 255;

@@ -12,7 +12,7 @@ const AROUND: usize = 6;
 /// Turns lights that cast shadows, and the views of their maps; of several turns of a light the last one counts.
 ///
 /// # Errors
-/// A name that no light has, or a view that cannot be.
+/// A name that no light has, or an impossible view.
 pub fn turn(scene: &mut Scene, lamps: &mut [Lamp], turns: &[TurnLight]) -> anyhow::Result<()> {
     for turn in turns {
         lights::check_name("--turn-light", scene, lamps, &turn.name)?;

@@ -5,13 +5,13 @@ use std::fmt;
 use std::ops::RangeInclusive;
 use umbrage_scene::Bearing;
 
-/// Most pictures of one command line, and most shards of it: what a list of them takes stays small.
+/// Most pictures of one command line, and most shards of it, so that a list of them stays small.
 pub const MOST_PICTURES: usize = 100_000;
 
 /// How large lights are.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Area {
-    /// As the scene says.
+    /// As in the scene.
     File,
     /// All of one radius: world units, of a sun radians.
     Radius(f64),
@@ -20,7 +20,7 @@ pub enum Area {
 /// Numbers of frames; never empty.
 pub type Frames = RangeInclusive<u32>;
 
-/// One of the shares of a command line's pictures.
+/// One of the parts of a command line's pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     /// Which one, from 1.
@@ -111,7 +111,7 @@ pub fn radius(text: &str) -> Result<f64, String> {
     within(text, 0.0, 64.0)
 }
 
-/// A share that counts as none, %.
+/// A percentage that counts as none.
 pub fn tolerance(text: &str) -> Result<f64, String> {
     within(text, 0.0, 100.0)
 }

@@ -12,7 +12,7 @@ pub fn figures() -> impl Iterator<Item = &'static Figure> {
     papers.into_iter().flatten().copied()
 }
 
-/// What stands on top of the gallery's page.
+/// The text at the top of the gallery's page.
 pub fn words() -> Words {
     let question =
         |(question, ids): &(&str, &[&str])| ((*question).into(), ids.iter().map(|id| (*id).into()).collect());

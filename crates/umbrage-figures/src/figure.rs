@@ -1,4 +1,4 @@
-//! What a figure of the catalogue is, and what a run asks of it.
+//! What a figure of the catalogue is, and the settings that a run makes it with.
 
 use crate::stage::truths::Truths;
 use umbrage_depth::Storage;
@@ -45,7 +45,7 @@ pub struct Figure {
     pub title: &'static str,
     /// What the figure must show: the paper's claim, in a sentence.
     pub claim: &'static str,
-    /// What to look at, in a sentence that begins with it.
+    /// What to look at: a sentence that begins with it, after "Look at".
     pub look: &'static str,
     /// Makes it.
     pub make: fn(&Context) -> anyhow::Result<Made>,
@@ -65,7 +65,7 @@ impl Figure {
     }
 }
 
-/// What one run asks of every figure.
+/// The settings of a run, the same for every figure.
 #[derive(Clone, Debug, Default)]
 pub struct Context {
     /// Smaller pictures and fewer samples.

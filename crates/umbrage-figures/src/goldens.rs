@@ -32,11 +32,11 @@ pub const PICTURES: &[Picture] = &[
 /// The numbers of a quick run with seed 0.
 const NUMBERS: &str = "fixtures/figures.csv";
 
-/// How far one code of a picture may stand from the kept one: another machine's mathematics rounds elsewhere.
+/// How far one code of a picture may be from the kept one: another machine's mathematics rounds differently.
 const CODES_APART: u8 = 3;
-/// The share of pixels that may stand further: a comparison of nearly equal depths may fall otherwise there.
+/// The fraction of pixels that may be farther off: a comparison of nearly equal depths may come out differently there.
 const PIXELS_APART: f64 = 0.001;
-/// How far a number may stand from the kept one, as a share of it.
+/// How far a number may be from the kept one, as a fraction of it.
 const NUMBERS_APART: f64 = 1e-3;
 
 /// What the code makes now, file by file.
@@ -93,7 +93,7 @@ impl Goldens {
         Ok(())
     }
 
-    /// What differs from the files of the repository at `root`, a line each.
+    /// What differs from the files of the repository at `root`, one line each.
     pub fn compare(&self, root: &Path) -> Vec<String> {
         let mut findings = Vec::new();
         for (file, made) in &self.files {
@@ -120,7 +120,7 @@ pub fn picture_differs(kept: &[u8], made: &[u8]) -> Option<String> {
     };
     if kept.size != made.size {
         let UVec2 { x, y } = made.size;
-        return Some(format!("is {} × {}, the code makes {x} × {y}", kept.size.x, kept.size.y));
+        return Some(format!("is {} × {}, but the code makes {x} × {y}", kept.size.x, kept.size.y));
     }
     let apart = |pair: &(&[u8; 3], &[u8; 3])| pair.0.iter().zip(pair.1).any(|(a, b)| a.abs_diff(*b) > CODES_APART);
     let count = kept.rgb.iter().zip(&made.rgb).filter(apart).count();
@@ -164,12 +164,15 @@ pub fn numbers_differ(kept: &str, made: &str) -> Vec<String> {
     for (name, value) in &made {
         match kept.iter().find(|(other, _)| other == name) {
             None => findings.push(format!("does not hold {name}")),
-            Some((_, old)) if !alike(old, value) => findings.push(format!("{name} is {old}, the code makes {value}")),
+            Some((_, old)) if !alike(old, value) => {
+                findings.push(format!("{name} is {old}, but the code makes {value}"))
+            }
             Some(_) => {}
         }
     }
     let gone = |name: &str| !made.iter().any(|(other, _)| other == name) && (was_made(name) || !exists(name));
-    findings.extend(kept.iter().filter(|(name, _)| gone(name)).map(|(name, _)| format!("the code makes no {name}")));
+    findings
+        .extend(kept.iter().filter(|(name, _)| gone(name)).map(|(name, _)| format!("the code no longer makes {name}")));
     findings
 }
 

@@ -1,5 +1,5 @@
 //! The papers' figures, each beside the truth and with a measured verdict: a folder for each paper, one catalogue, and what the
-//! repository keeps of them. The program of this package is what `cargo xtask figures` starts.
+//! repository keeps of them. `cargo xtask figures` starts the program of this package.
 //!
 //! A figure is a function from a [`Context`] to what [`umbrage_report`] writes. Where to add one: a constant in a module of
 //! its paper, and its line in the `FIGURES` of that paper's `mod.rs`.

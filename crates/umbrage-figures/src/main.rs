@@ -12,7 +12,7 @@ use umbrage_report::{Verdict, summary};
 #[command(name = "cargo xtask figures", bin_name = "cargo xtask figures")]
 #[expect(clippy::struct_excessive_bools, reason = "the switches of a command line")]
 struct Cli {
-    /// Only these figures; others that the folder holds stay on the page
+    /// Make only these figures; others that the folder already holds stay on the page
     #[arg(long, num_args = 1.., value_name = "ID")]
     only: Vec<String>,
     /// Smaller pictures and fewer samples; bounds that need full size are not judged
@@ -30,7 +30,7 @@ struct Cli {
     /// List the figures and make none
     #[arg(long)]
     list: bool,
-    /// Worker threads, one a core unless given; changes no result
+    /// Worker threads, one per core unless given; changes no result
     #[arg(long, value_name = "N", value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=1024))]
     threads: Option<usize>,
     /// Seed of all randomness
@@ -41,15 +41,15 @@ struct Cli {
     storage: Storage,
 }
 
-/// What the run ends with, as the exit code says it.
+/// The outcome of the run, as its exit code.
 enum Outcome {
     /// 0: all is well.
     Good,
     /// 1: something is not as it must be.
     Failed,
-    /// 2: the command line asks for what there is not.
+    /// 2: the command line names something that does not exist.
     Usage,
-    /// 3: a figure is missed.
+    /// 3: a figure misses a bound.
     Missed,
 }
 
@@ -78,7 +78,7 @@ fn run(cli: &Cli) -> anyhow::Result<Outcome> {
     let chosen = match catalogue::choose(&cli.only) {
         Ok(chosen) => chosen,
         Err(id) => {
-            eprintln!("error: there is no figure {id:?}; cargo xtask figures --list names them all");
+            eprintln!("error: there is no figure {id:?}; cargo xtask figures --list lists them all");
             return Ok(Outcome::Usage);
         }
     };

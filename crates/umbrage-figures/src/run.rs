@@ -9,9 +9,9 @@ use umbrage_report::Report;
 pub struct Run<'a> {
     /// Those that are made, in the order of the gallery.
     pub figures: Vec<&'a Figure>,
-    /// What every figure is asked.
+    /// The settings that every figure is made with.
     pub context: Context,
-    /// Worker threads; `None` is one a core. Changes no bit.
+    /// Worker threads; `None` is one per core. Changes no bit.
     pub threads: Option<usize>,
     /// The folder that is filled.
     pub out: PathBuf,

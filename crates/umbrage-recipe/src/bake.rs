@@ -1,4 +1,4 @@
-//! Pass 1 by what a recipe stores.
+//! Pass 1 for what a recipe stores.
 
 use crate::values::{Rule, Values};
 use std::sync::Arc;
@@ -60,7 +60,7 @@ impl Values {
         }
     }
 
-    /// As many samples per texel as are wanted, one where so many do not fit.
+    /// As many samples per texel as are wanted, or one where that many do not fit.
     fn sampled<R: DepthRule>(&self, view: &View, casters: Moment<'_, '_>, rule: &R, cull: Cull) -> Baked {
         let axis = self.sub_samples.unwrap_or(1);
         if axis > 1 && view.with_size(view.size().saturating_mul([axis; 2].into())).is_ok() {

@@ -20,7 +20,7 @@ pub fn bind<F: Filter + 'static>(filter: F, map: impl Into<Map>, storage: Storag
     Box::new(ShadowMap { filter, map: map.into().kept(storage) })
 }
 
-/// A filter over the maps around one light; a single map needs none beside it.
+/// A filter over the maps around one light; a single map is used alone.
 fn over<F: Filter + 'static>(filter: F, mut maps: Vec<Map>) -> Result<Box<dyn Shadow>, RecipeError> {
     match (maps.len(), maps.pop()) {
         (1, Some(map)) => Ok(Box::new(ShadowMap { filter, map })),

@@ -5,7 +5,7 @@ use umbrage_plane::{DepthRange, Footprint, Receiver, TexelRect, View};
 use umbrage_sample::Taps;
 use umbrage_shadow::{AnyDepth, Compared, Moved, ReceiverDepth, Simd, f32x16};
 
-/// What an engine does to a receiver when nobody sets its bias. It differs from receiver to receiver, with the light's projection and its map.
+/// An engine's default bias. It differs from receiver to receiver, with the light's projection and its map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EngineBias {
     Three,
@@ -44,7 +44,7 @@ impl EngineBias {
             Self::UrpSoft => conditions.with_filter_radius(Some(2.5)),
             _ => *conditions,
         };
-        // Where a unit of the depth format is left open, what is had at least.
+        // Where a unit of the depth format is left open, the least value.
         Ok(self.engine().world(&[], &conditions)?.least)
     }
 
@@ -54,7 +54,7 @@ impl EngineBias {
         conditions.and_then(|conditions| self.under(&conditions)).unwrap_or(WorldBias::ZERO)
     }
 
-    /// How far before a plane of a slope what is compared lies at an axial distance, world units along the light's axis; 0 where nothing is known of it.
+    /// How far in front of a plane of a slope the compared depth lies at an axial distance, world units along the light's axis; 0 where nothing is known of it.
     pub fn lift(self, light: &View, zeta: f64, slope: f64) -> f64 {
         let lift = || -> Result<f64, EngineError> {
             let conditions = Conditions::on_axis(light, zeta)?.with_light_at(1.0 / slope.hypot(1.0));

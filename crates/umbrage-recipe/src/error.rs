@@ -4,14 +4,14 @@
 pub struct RecipeError {
     /// The field; `recipe` for the preset's name, `map` for a map that records another surface.
     pub field: String,
-    /// What was written, cut where it is longer than people read.
+    /// What was written, cut where it is too long to be read.
     pub value: String,
     /// What may be written.
     pub expected: String,
 }
 
 impl RecipeError {
-    /// The same, saying whose recipe it is: `owner` is put before the field.
+    /// The same with the recipe's owner: `owner` is put before the field.
     #[must_use]
     pub fn of(self, owner: &str) -> Self {
         Self { field: format!("{owner}, {}", self.field), ..self }

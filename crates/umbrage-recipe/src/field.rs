@@ -33,7 +33,7 @@ impl Field {
         read.then_some(()).ok_or_else(|| RecipeError::value(self.name, text, self.kind.to_string()))
     }
 
-    /// The defaults in few words: what most presets have, then the others by name. Engines' own are in a table of their own.
+    /// The defaults in few words: that of most presets, then the others by name. Those of engines are in a table of their own.
     pub(crate) fn defaults(&self) -> String {
         let of = |preset: &PresetName| match self.default(*preset) {
             Some(value) if value == "inf" => "∞".into(),

@@ -32,7 +32,7 @@ macro_rules! and_engines {
     };
 }
 
-/// All presets whose map keeps depths: which of them is free.
+/// All presets whose map stores depths: which surface it stores can be chosen.
 const STORING: &[PresetName] = and_engines![
     Williams78,
     Reeves87,
@@ -85,7 +85,7 @@ macro_rules! plain {
     };
 }
 
-/// A field without which the recipe does as its documentation says.
+/// A field whose absence its documentation describes.
 macro_rules! optional {
     ($name:literal, $of:expr, $kind:expr, |$v:ident| $place:expr, $doc:literal, $source:literal) => {
         Field {
@@ -126,7 +126,7 @@ macro_rules! words {
     };
 }
 
-/// A field that is more than a value in its place.
+/// A field that sets more than one value.
 macro_rules! own {
     ($name:literal, $of:expr, $kind:expr, $set:expr, $get:expr, $doc:literal, $source:literal) => {
         Field { name: $name, of: $of, kind: $kind, doc: $doc, source: $source, set: $set, get: $get }
@@ -142,7 +142,7 @@ pub const FIELDS: &[Field] = &[
         AUTO,
         [("1", Some(1)), ("2", Some(2)), ("4", Some(4)), ("8", Some(8))],
         |values| values.fine,
-        "samples along the side of a texel that is refined; 1 refines none; otherwise 8 in maps of at most 128 texels a side, 4 in larger ones",
+        "samples along the side of a refined texel; 1 refines none; by default 8 in maps of at most 128 texels per side, 4 in larger ones",
         ""
     ),
     words!(
@@ -150,7 +150,7 @@ pub const FIELDS: &[Field] = &[
         AUTO,
         [("1", 1), ("2", 2), ("4", 4), ("8", 8), ("16", 16)],
         |values| values.dual.across,
-        "lines across a region along which edges are looked for; 1 asks about its point alone",
+        "lines across a region along which edges are searched for; 1 looks up its point alone",
         ""
     ),
     words!(
@@ -158,7 +158,7 @@ pub const FIELDS: &[Field] = &[
         AUTO,
         [("2", Some(2)), ("4", Some(4)), ("8", Some(8)), ("16", Some(16)), ("32", Some(32))],
         |values| values.slots,
-        "parts of a link between two samples, of which one is remembered as where the surface changes; at most 64/`fine`, and otherwise 16 or that",
+        "parts of a link between two samples, one of which is stored as the place where the surface changes; at most 64/`fine`, and by default 16 or that",
         ""
     ),
     own!(
@@ -167,7 +167,7 @@ pub const FIELDS: &[Field] = &[
         Kind::Number,
         |values, text, kind| f32::read(text, kind).map(|term| values.dual.width_term = f64::from(term)).is_some(),
         |values| Some((values.dual.width_term as f32).write()),
-        "what a sample must be passed by for its width, in widths of it",
+        "margin by which a sample must be passed for its width, in widths of it",
         ""
     ),
     own!(
@@ -176,7 +176,7 @@ pub const FIELDS: &[Field] = &[
         Kind::Number,
         |values, text, kind| f32::read(text, kind).map(|term| values.dual.slope_term = f64::from(term)).is_some(),
         |values| Some((values.dual.slope_term as f32).write()),
-        "the same for the gentler slope, in changes of depth over a sample",
+        "margin for the gentler slope, in changes of depth over a sample",
         ""
     ),
     optional!(
@@ -192,7 +192,7 @@ pub const FIELDS: &[Field] = &[
         AUTO,
         Kind::Whole(1024),
         |values| values.maps,
-        "with `light`: points of the disc, each with a map; otherwise 16 to 64, by the width of its penumbra",
+        "with `light`: points of the disc, each with a map; by default 16 to 64, by the width of its penumbra",
         ""
     ),
     words!(
@@ -215,7 +215,7 @@ pub const FIELDS: &[Field] = &[
         STORING,
         Kind::Ratio,
         |values| values.midpoint.ratio,
-        "midpoints: how far the depth is from the first surface to the second",
+        "midpoints: the position of the depth between the first surface, 0, and the second, 1",
         "Woo 1992"
     ),
     plain!(
@@ -274,7 +274,7 @@ pub const FIELDS: &[Field] = &[
             ("vogel", PatternName::Vogel),
         ],
         |values| values.pattern,
-        "where in the region one looks; the last four are the kernels of engines",
+        "where in the region the map is looked up; the last four are the kernels of engines",
         "Reeves 1987, §3"
     ),
     words!(
@@ -322,7 +322,7 @@ pub const FIELDS: &[Field] = &[
         CLOSER,
         [("float", false), ("integer", true)],
         |values| values.integer_first,
-        "whether whole units are compared first, which asks for `pattern=jittered`, `depth=constant` and a bias of 0",
+        "whether whole units are compared first, which requires `pattern=jittered`, `depth=constant` and a bias of 0",
         "Woo 1992"
     ),
     plain!(
@@ -330,7 +330,7 @@ pub const FIELDS: &[Field] = &[
         CLOSER,
         Kind::Positive,
         |values| values.unit,
-        "what is counted as one by `compare=integer`, map units",
+        "size of a whole unit for `compare=integer`, map units",
         "Woo 1992"
     ),
     own!(
@@ -368,7 +368,7 @@ pub const FIELDS: &[Field] = &[
             .map(|(low, high)| (values.biased.low, values.biased.high) = (low, high))
             .is_some(),
         |values| Some((values.biased.low, values.biased.high).write()),
-        "moves the receiver toward the light; a range with `depth=constant` alone, world units with `depth=cone`, 0 with an engine's own",
+        "moves the receiver toward the light; a range only with `depth=constant`, world units with `depth=cone`, 0 with an engine's own",
         "Reeves 1987, §3.2"
     ),
     own!(
@@ -387,7 +387,7 @@ pub const FIELDS: &[Field] = &[
         COMPARED,
         [("random", Spread::Random), ("ramp", Spread::Ramp)],
         |values| values.biased.spread,
-        "how a tap's bias is taken from the range, with `depth=constant`",
+        "how a tap's bias is chosen from the range, with `depth=constant`",
         "Reeves 1987, §3.2"
     ),
     words!(
@@ -410,7 +410,8 @@ pub const FIELDS: &[Field] = &[
             ("hdrp", DepthName::Engine(EngineBias::Hdrp)),
         ],
         |values| values.depth,
-        "which depth is compared: the receiver's own, its tangent plane's, the bias cone's, its own by a bias that grows with its slope, that of the receiver moved along its normal, or what an engine makes of it when nobody sets its bias",
+        "which depth is compared: the receiver's own, its tangent plane's, the bias cone's, its own moved by a bias that grows with its slope, that of the \
+         receiver moved along its normal, or its own moved by an engine's default bias",
         ""
     ),
     plain!(
@@ -426,7 +427,7 @@ pub const FIELDS: &[Field] = &[
         COMPARED,
         [("texel-centre", Radius::TexelCentre), ("nominal", Radius::Nominal)],
         |values| values.radius,
-        "to where the bias cone measures, with `depth=cone`",
+        "the place to which the bias cone measures, with `depth=cone`",
         "Burley 2006"
     ),
     plain!(
@@ -442,7 +443,7 @@ pub const FIELDS: &[Field] = &[
         COMPARED,
         Kind::Number,
         |values| values.scaled.most,
-        "most that both together are, world units, with `depth=slope-scaled`",
+        "largest sum of both, world units, with `depth=slope-scaled`",
         "Direct3D 11"
     ),
     plain!(
@@ -458,7 +459,7 @@ pub const FIELDS: &[Field] = &[
         COMPARED,
         [("even", OffsetGrowth::Even), ("sine", OffsetGrowth::Sine), ("versine", OffsetGrowth::Versine)],
         |values| values.offset.growth,
-        "what that is multiplied by: 1, or the sine of the angle to the light, or 1 less its cosine",
+        "factor of that: 1, the sine of the angle to the light, or 1 minus its cosine",
         ""
     ),
     plain!(
@@ -466,7 +467,7 @@ pub const FIELDS: &[Field] = &[
         PLANES,
         SHARE,
         |values| values.slack,
-        "roundings by which a tangent plane is moved",
+        "number of roundings by which a tangent plane is moved",
         "Wang & Molnar 1994"
     ),
     plain!(
@@ -474,7 +475,7 @@ pub const FIELDS: &[Field] = &[
         PLANES,
         Kind::Number,
         |values| values.reach,
-        "most that a tangent plane may leave the receiver's own depth, map units",
+        "largest distance of a tangent plane from the receiver's own depth, map units",
         "Wang & Molnar 1994"
     ),
     words!(
@@ -482,7 +483,7 @@ pub const FIELDS: &[Field] = &[
         CONDITIONAL,
         [("mixed", VirtualWhen::Mixed), ("always", VirtualWhen::Always), ("never", VirtualWhen::Never)],
         |values| values.when,
-        "when the tangent plane is asked",
+        "when the tangent plane is compared",
         "Wang & Molnar 1994"
     ),
     plain!(
@@ -490,7 +491,7 @@ pub const FIELDS: &[Field] = &[
         CONDITIONAL,
         SHARE,
         |values| values.min_cos,
-        "least cosine between surface and light at which the plane is asked",
+        "least cosine between normal and light at which the plane is compared",
         "Wang & Molnar 1994"
     ),
     words!(
@@ -498,7 +499,7 @@ pub const FIELDS: &[Field] = &[
         CONDITIONAL,
         [("shaded", false), ("dark", true)],
         |values| values.dark_backs,
-        "whether surfaces that face away from the light are left to the shading or dark",
+        "whether surfaces that face away from the light are left to shading, or dark",
         "Wang & Molnar 1994"
     ),
     plain!("min", SOFT, Kind::Radius, |values| values.min, "radius of the blur at contact", "Burley 2006"),
@@ -507,7 +508,7 @@ pub const FIELDS: &[Field] = &[
         SOFT,
         Kind::Radius,
         |values| values.max,
-        "largest radius of the blur, and the search's",
+        "largest radius of the blur, and the radius of the search",
         "Burley 2006"
     ),
     optional!(
@@ -531,7 +532,7 @@ pub const FIELDS: &[Field] = &[
         SOFT,
         COUNT,
         |values| values.search.num_samples,
-        "number of taps that look for occluders",
+        "number of taps that search for occluders",
         "Burley 2006"
     ),
     plain!("blur", SOFT, COUNT, |values| values.blur.num_samples, "number of taps that are compared", "Burley 2006"),
@@ -562,7 +563,7 @@ pub const FIELDS: &[Field] = &[
         SOFT,
         Kind::Switch,
         |values| values.rescue,
-        "whether a search without an occluder is asked again nearby",
+        "whether a receiver without occluders is still looked up at the least radius",
         ""
     ),
     own!(
@@ -599,7 +600,14 @@ pub const FIELDS: &[Field] = &[
         "distance over which `opacity` goes from near to far, world units",
         "Burley 2006"
     ),
-    plain!("opacity-shape", SOFT, Kind::Positive, |values| values.opacity.gamma, "exponent of that way", "Burley 2006"),
+    plain!(
+        "opacity-shape",
+        SOFT,
+        Kind::Positive,
+        |values| values.opacity.gamma,
+        "exponent of that transition",
+        "Burley 2006"
+    ),
     own!(
         "lookup",
         WILLIAMS,
@@ -624,7 +632,7 @@ pub const FIELDS: &[Field] = &[
             .map(|steps| values.lookup = Lookup::Bilinear(Guard::Steps(steps)))
             .is_some(),
         |values| values.guard().map(|steps| steps.write()),
-        "depth steps of difference up to which `bilinear` interpolates, and chooses it",
+        "depth steps of difference up to which `bilinear` interpolates; setting it chooses `bilinear`",
         ""
     ),
     plain!(
@@ -680,7 +688,7 @@ pub const FIELDS: &[Field] = &[
         MOMENTS,
         Kind::BelowOne,
         |values| values.moments.filter.bleeding,
-        "part of the visibility that is cut off, against light bleeding",
+        "fraction of the visibility that is cut off, against light bleeding",
         "GPU Gems 3, ch. 8"
     ),
     plain!(
@@ -696,7 +704,7 @@ pub const FIELDS: &[Field] = &[
         VARIANCE,
         SHARE,
         |values| values.moments.filter.least_variance,
-        "variance that counts at least, in squares of the depth's range",
+        "least variance that is used, in squares of the depth's range",
         "Donnelly & Lauritzen 2006"
     ),
     plain!(
@@ -704,7 +712,7 @@ pub const FIELDS: &[Field] = &[
         &[PresetName::Msm],
         Kind::UpTo(0.5),
         |values| values.moments.filter.moment_bias,
-        "share by which moments are mixed with harmless ones, against roundings",
+        "fraction by which moments are mixed with harmless ones, against rounding",
         "Peters & Klein 2015"
     ),
     words!(
@@ -712,7 +720,7 @@ pub const FIELDS: &[Field] = &[
         &PresetName::ALL,
         [("given", Window::Given), ("fitted", Window::Fitted)],
         |values| values.window,
-        "what a map shows: what the light's view does, or of it what is about the points that will be asked about",
+        "what a map covers: the light's whole view, or the part of it around the points that will be looked up",
         ""
     ),
 ];

@@ -1,7 +1,7 @@
 //! Shadow algorithms by name.
 //!
-//! A [`Recipe`] is a line of text or a TOML table that names a preset and what differs from it. It bakes the map that it wants from any
-//! triangles, and binds its filter over a map. Everything that can be written stands in one table of [`Field`]s.
+//! A [`Recipe`] is a line of text or a TOML table that names a preset and what differs from it. It bakes the map that it needs from any triangles, and binds
+//! its filter over a map. Everything that can be written is in one table of [`Field`]s.
 //!
 //! ```
 //! use umbrage_recipe::{Field, PresetName, Recipe};

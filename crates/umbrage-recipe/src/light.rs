@@ -1,4 +1,4 @@
-//! A light's shadow by a recipe: the views that it wants maps of, the maps, and the algorithm over them.
+//! A light's shadow by a recipe: the views that it needs maps of, the maps, and the algorithm over them.
 
 use crate::values::{Values, Window};
 use crate::{PresetName, Recipe, RecipeError};
@@ -14,17 +14,17 @@ use umbrage_shadow::{Bounded, Mean, Shadow, Through};
 /// Cosine of the half-angle beyond which a spot light gets several views: 70°.
 const WIDE: f64 = 0.342_020_143_325_668_7;
 
-/// Fewest and most points of a light with a size, where their number is not given.
+/// Fewest and most points of an area light, where their number is not given.
 const FEWEST_POINTS: u32 = 16;
 const MOST_POINTS: u32 = 64;
 
-/// What a light's maps are made for, beside its view.
+/// What a light's maps are made for, besides its view.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LightUse<'a> {
     /// How maps of one depth per texel are kept.
     pub storage: Storage,
-    /// Points of the world that will be shaded: what the camera sees. `window=fitted` lays the maps about them. `None` where nobody
-    /// knows.
+    /// Points of the world that will be shaded: what the camera sees. `window=fitted` fits the maps to them. `None` where they are
+    /// not known.
     pub receivers: Option<&'a [DVec3]>,
     /// Evenly spread times at which casters are wanted; 0 counts as 1.
     pub moments: u32,
@@ -32,7 +32,7 @@ pub struct LightUse<'a> {
 
 /// A light's shadow, and what it took.
 pub struct LightShadow {
-    /// What answers.
+    /// The shadow.
     pub shadow: Box<dyn Shadow>,
     /// Its maps, in the order in which they were made.
     pub maps: Vec<LightMap>,
@@ -45,13 +45,13 @@ pub struct LightShadow {
 pub struct LightMap {
     /// Its view.
     pub view: View,
-    /// What it keeps.
+    /// What it stores.
     pub keeps: Keeps,
     /// All that it holds, bytes.
     pub bytes: usize,
 }
 
-/// What a map keeps of its texels.
+/// What a map stores of its texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Keeps {
     /// One depth, perhaps with moments of the depths around it.
@@ -96,11 +96,12 @@ impl Recipe {
         }
     }
 
-    /// All of pass 1 of a light, and the algorithm over it: a map for each view that the recipe wants. `views` are the light's own view, or several that stand
-    /// at one place and see each another part ([`umbrage_plane::cube_views`]), across whose borders filters go on. `casters` gives the triangles for a view at one of the moments; it
+    /// All of pass 1 of a light, and the algorithm over it: a map for each view that the recipe needs. `views` are the light's own view, or several that stand
+    /// at one place and see each another part ([`umbrage_plane::cube_views`]), across whose borders filters go on. `casters` gives the triangles for a view at
+    /// one of the moments; it
     /// is called for each map, and again where some of them let light pass.
     ///
-    /// `auto` makes of it what the light is:
+    /// `auto` adapts to the light:
     /// * a spot of a half-angle above 70° has [several maps](View::faces_ahead) instead of one;
     /// * with `light=`, the mean of maps at points of the light: [of a disc](View::over_disc) where it has one view, [of a
     ///   sphere](View::over_sphere) where it has several;
@@ -150,7 +151,7 @@ impl Recipe {
             return Err(RecipeError::value(
                 "window",
                 "fitted",
-                "given, where it is not known which points will be asked about",
+                "given, where it is not known which points will be looked up",
             ));
         }
         let fitted = |view: View| match with.receivers {
@@ -260,7 +261,7 @@ impl Made<'_> {
             let mut maps = Vec::new();
             for view in views {
                 let left_out = Cell::new(0);
-                // What is left out stays as a triangle of no area, so that masks are asked of the triangles that they know.
+                // What is left out stays as a triangle of no area, so that masks are evaluated for the triangles that they belong to.
                 let wanted = |caster: Caster<'a>| {
                     let passes = caster.is_transparent();
                     passing.set(passing.get() || passes);
@@ -288,7 +289,7 @@ impl Made<'_> {
     }
 }
 
-/// How many points a light of a size is taken for: one for every texel of its widest penumbra, which is that of the nearest caster on the farthest
+/// The number of points that stand for an area light: one for every texel of its widest penumbra, which is that of the nearest caster on the farthest
 /// receiver.
 fn points_of<'a>(
     view: &View,

@@ -1,10 +1,10 @@
-//! Recipes that filter the map before it is looked up: which moments they keep, and what compares them.
+//! Recipes that filter the map before it is looked up: the moments that they store, and what compares them.
 
 use crate::PresetName;
 use umbrage_depth::{DepthMap, Map, MomentMap, Moments};
 use umbrage_shadow::{FromMoments, presets};
 
-/// What recipes over moments of depths can say, beside the bias.
+/// The settings of recipes over moments of depths, besides the bias.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MomentValues {
     /// The sharpness of one exponential, or the positive exponent.
@@ -33,7 +33,7 @@ impl MomentValues {
         Self { exponent, negative, prefilter: 1.0, filter }
     }
 
-    /// Which moments a preset keeps; `None` for one that compares depths.
+    /// Which moments a preset stores; `None` for one that compares depths.
     fn kept(&self, preset: PresetName) -> Option<Moments> {
         let Self { exponent, negative, .. } = *self;
         match preset {
@@ -46,8 +46,8 @@ impl MomentValues {
         }
     }
 
-    /// A map as a preset asks it: with moments, where it wants some and the map is without. Deep maps stay as they are: what light passes them is asked
-    /// texel by texel.
+    /// A map as a preset uses it: with moments, where it needs some and the map has none. Deep maps stay as they are: the light that passes them is
+    /// evaluated texel by texel.
     pub fn over(&self, preset: PresetName, map: Map) -> Map {
         match self.kept(preset) {
             Some(kind) if map.moments().is_none() && map.translucent().is_none() => {

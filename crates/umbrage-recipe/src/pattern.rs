@@ -1,6 +1,6 @@
 //! Patterns by name.
 
-/// Where one looks.
+/// Where the map is looked up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PatternName {
     Jittered,

@@ -25,7 +25,7 @@ pub enum PresetName {
     Williams78,
     /// Percentage closer, biases of a range (Reeves, Salesin & Cook 1987), as the listing sets its parameters.
     Reeves87,
-    /// The same as the text of the paper advises.
+    /// The same with the values that the paper's text advises.
     Reeves87Recommended,
     /// Percentage closer without a bias over midpoints (Woo 1992).
     Woo92,
@@ -155,7 +155,7 @@ impl PresetName {
             Self::WangMolnar94 => "second surfaces, and tangent planes where texels disagree (Wang & Molnar 1994)",
             Self::Burley => "soft shadows with the bias cone (Burley 2006)",
             Self::Fernando => "soft shadows with a plain mean and a constant bias (Fernando 2005)",
-            Self::Ordinary => "depths filtered before they are compared: how it is not done",
+            Self::Ordinary => "depths filtered before they are compared, which is wrong: a control",
             Self::Vsm => "variance shadow maps (Donnelly & Lauritzen 2006)",
             Self::Esm => "exponential shadow maps (Annen et al. 2008)",
             Self::Evsm2 => "exponential variance shadow maps of two channels (Lauritzen & McCool 2008)",
@@ -174,13 +174,13 @@ impl PresetName {
         }
     }
 
-    /// The engine whose default it is; `None` for the papers' and our own.
+    /// The engine whose default it is; `None` for the papers' and Umbrage's own.
     #[must_use]
     pub fn engine(self) -> Option<Engine> {
         self.by_engine().map(|by| by.bias.engine())
     }
 
-    /// What an engine's preset is made of.
+    /// The parts of an engine's preset.
     pub(crate) const fn by_engine(self) -> Option<ByEngine> {
         use EngineBias as Bias;
         use PatternName::{AreaTent, Castano5, Centre, Tent, Vogel};
@@ -206,7 +206,7 @@ impl PresetName {
         Self::ALL.into_iter().find(|preset| preset.name() == name)
     }
 
-    /// The surfaces that the paper's comparison is right over, as [`umbrage_shadow::presets`] have them.
+    /// The surfaces for which the paper's comparison is right, as in [`umbrage_shadow::presets`].
     #[must_use]
     pub fn expects(self) -> &'static [Stored] {
         match self {
@@ -224,7 +224,7 @@ impl PresetName {
             Self::Evsm2 => presets::evsm2().expects,
             Self::Evsm4 => presets::evsm4().expects,
             Self::Msm => presets::msm().expects,
-            // What single-sided materials cast with there.
+            // The faces with which single-sided materials cast there.
             Self::ThreePcf => &[Stored::BackFace],
             Self::BabylonNone
             | Self::BabylonPcf

@@ -1,4 +1,4 @@
-//! How far a recipe's filter looks, and the same recipe without its biases: what judging a picture wants to know.
+//! How far a recipe's filter looks, and the same recipe without its biases: both are needed to judge a picture.
 
 use crate::values::{DepthName, Values};
 use crate::{PresetName, Recipe};
@@ -7,7 +7,7 @@ use umbrage_plane::{Bias, Receiver, View};
 use umbrage_shadow::williams::Lookup;
 use umbrage_shadow::{Biased, MapRadius, Moved, Softness};
 
-/// From where a filter looks to the sample of the texel that it meets there, at most.
+/// The largest distance from where a filter looks to the sample of the texel there.
 const TO_SAMPLE: f32 = 0.5;
 
 impl Recipe {
@@ -47,7 +47,8 @@ impl Recipe {
         is_biased.then_some(Self { values: without, ..*self })
     }
 
-    /// How far before a plane of a slope what is compared lies at an axial distance, beyond [`bias`](Self::bias): by a bias that grows with the slope, by a
+    /// How far in front of a plane of a slope the compared depth lies at an axial distance, beyond [`bias`](Self::bias): by a bias that grows with the slope,
+    /// by a
     /// normal offset, or by an engine's default. World units along the light's axis; 0 for other depths.
     #[must_use]
     pub fn lift(&self, light: &View, zeta: f64, slope: f64) -> f64 {
@@ -64,7 +65,7 @@ impl Recipe {
         }
     }
 
-    /// Half-extents of the box about a receiver's place in the map, texels, within which lies everything that the filter looks at for it,
+    /// Half-extents of the box about a receiver's place in the map, texels, within which lies everything that the filter reads for it,
     /// the samples of the texels included. A soft filter looks as far as its search goes, however narrow the blur that it then chooses.
     ///
     /// At least half a texel; at most a quarter of the map, as every filter's regions are, and half a texel.

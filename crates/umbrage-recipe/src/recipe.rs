@@ -8,7 +8,8 @@ use umbrage_raster::Stats;
 use umbrage_shadow::Shadow;
 
 /// A shadow algorithm by name, as people write it: a preset and what differs from it, such as
-/// `reeves87,samples=16,res-factor=3,bias=0.3..0.4`. Which surface is stored, where one looks and which depth is compared are chosen one by one:
+/// `reeves87,samples=16,res-factor=3,bias=0.3..0.4`. Which surface is stored, where the map is looked up and which depth is compared can be chosen
+/// independently:
 /// `burley,stored=midpoint` and `woo92,depth=cone,pattern=disc` are recipes too.
 ///
 /// | preset | stored | filter |
@@ -23,9 +24,10 @@ use umbrage_shadow::Shadow;
 /// | `ordinary` | first | depths filtered first: the control |
 /// | `vsm`, `esm`, `evsm2`, `evsm4`, `msm` | first, filtered beforehand | inequalities for moments of the depths |
 ///
-/// What engines do when nobody sets anything, as far as their sources say: percentage closer in a few texels about the receiver, whatever its footprint, with the
+/// The defaults of engines, as far as their sources show: percentage closer in a few texels about the receiver, whatever its footprint, with the
 /// engine's own default bias. That depends on the light's projection, on its map and on each receiver ([`umbrage_engines`]), so that no number of `bias` is the
-/// same; `depth=godot` gives it to any other filter. One unit of the scene is one of the engine's, and the light's near and far planes are taken for the engine's own.
+/// same; `depth=godot` gives it to any other filter. One unit of the scene is one of the engine's, and the light's near and far planes are taken for the
+/// engine's own.
 ///
 /// | preset | stored | kernel | bias | sources read |
 /// |---|---|---|---|---|
@@ -39,8 +41,9 @@ use umbrage_shadow::Shadow;
 /// | `urp-soft` | first | [`AreaTent`](umbrage_sample::AreaTent), 5 × 5 | `urp-soft` | the same and `ShadowSamplingTent.hlsl` |
 /// | `hdrp-pcf5`, `hdrp-pcf7` | first | [`AreaTent`](umbrage_sample::AreaTent), 5 × 5 for spot lights, 7 × 7 for directional ones | `hdrp` | Unity HDRP, `HDShadowAlgorithms.hlsl`, and the same |
 ///
-/// Where a unit of the depth format is left open, the least is taken. Normals are geometric, where engines may take shading normals. Cascades, borders of atlases and
-/// fades at a map's end are not in them. HDRP's PCSS is not here: its filter, the nearest blocker of a cone of samples, is another than `fernando`; nor is
+/// Where a unit of the depth format is left open, the least is taken. Normals are geometric, where engines may take shading normals. Cascades, borders of
+/// atlases and
+/// fades at a map's end are not in them. HDRP's PCSS is not here: its filter, the nearest blocker of a cone of samples, is different from `fernando`; nor is
 /// `VSMShadowMap` of three.js, whose steps of a probability differ from `vsm`.
 ///
 /// Units: `t` texels, `w` world units, `s` depth steps, `m` fractions of the range from near to far as screen depth has it, `%` of the map's sides.
@@ -91,7 +94,7 @@ impl Recipe {
         self.values.rule.stored()
     }
 
-    /// How midpoints are found, where these are what its maps record.
+    /// How midpoints are found, where its maps record these.
     #[must_use]
     pub fn midpoint(&self) -> Midpoint {
         self.values.midpoint
@@ -109,13 +112,13 @@ impl Recipe {
         self.values.biased.low
     }
 
-    /// Whether its maps are laid about the points that will be shaded ([`LightUse::receivers`](crate::LightUse::receivers)).
+    /// Whether its maps are fitted to the points that will be shaded ([`LightUse::receivers`](crate::LightUse::receivers)).
     #[must_use]
     pub fn is_fitted(&self) -> bool {
         self.values.window == Window::Fitted
     }
 
-    /// Half-extent of the smallest region that the filter looks at, texels; 0 for one texel.
+    /// Half-extent of the smallest region that the filter looks up, texels; 0 for one texel.
     #[must_use]
     pub fn least_half(&self) -> f32 {
         match self.preset {
@@ -128,7 +131,7 @@ impl Recipe {
         }
     }
 
-    /// Pass 1: the map that this recipe wants of a light's view, from triangles each with what it knows of opacity, colour, normals and holes.
+    /// Pass 1: the map that this recipe needs of a light's view, from triangles each with its opacity, colour, normals and holes.
     /// A caster's [mask](umbrage_bake::Caster::mask) is evaluated whatever the recipe stores.
     ///
     /// ```
@@ -174,13 +177,13 @@ impl Recipe {
     /// The algorithm over a map.
     ///
     /// # Errors
-    /// When the map records another surface than the recipe [expects](Self::expects): the comparison would be wrong all over, without a word.
+    /// When the map records another surface than the recipe [expects](Self::expects): the comparison would be wrong everywhere, without a warning.
     pub fn bind(&self, map: impl Into<Map>, storage: Storage) -> Result<Box<dyn Shadow>, RecipeError> {
         self.bind_around(vec![map.into()], storage)
     }
 
     /// The algorithm over maps that stand around one light and see each another part, such as those of [`umbrage_plane::cube_views`]. Each point
-    /// is answered by the map whose axis is nearest to its direction, and regions cross from one map to the next. A single map is as in [`bind`](Self::bind).
+    /// is looked up in the map whose axis is nearest to its direction, and regions cross from one map to the next. A single map is as in [`bind`](Self::bind).
     ///
     /// # Errors
     /// As [`bind`](Self::bind) for any of the maps; also for none, and for views that do not stand around one light.
@@ -205,11 +208,11 @@ impl Recipe {
         }
         let names = kind::either(&expected.iter().map(|stored| stored.name()).collect::<Vec<_>>());
         let by = if self.names_stored { "the recipe's stored=" } else { self.preset.name() };
-        let expected = format!("{names}, as {by} wants it (bind_any takes any map, and so does another stored=)");
+        let expected = format!("{names}, as {by} needs it (bind_any takes any map, and so does another stored=)");
         Err(RecipeError::value("map", found.name(), expected))
     }
 
-    /// The algorithm over a map, whatever the map records: for mixtures that nobody published.
+    /// The algorithm over a map, whatever the map records: for unpublished combinations.
     #[expect(clippy::missing_panics_doc, reason = "a single map always fits")]
     pub fn bind_any(&self, map: impl Into<Map>, storage: Storage) -> Box<dyn Shadow> {
         let alone = self.values.bind(self.preset, vec![map.into().kept(storage)]);

@@ -20,12 +20,12 @@ const NAMES: [&str; 11] = [
 
 impl Recipe {
     /// A recipe from the parameters of the RenderMan Shading Language's `shadow()`, such as `samples=16, blur=0.01, bias0=0.1, bias1=0.2`, over maps
-    /// of `map_size` texels a side.
+    /// of `map_size` texels per side.
     ///
-    /// | parameter | what becomes of it |
+    /// | parameter | its translation |
     /// |---|---|
     /// | `samples`, `minsamples` | the fields `samples` and `min-samples` |
-    /// | `width`, `swidth`, `twidth` | `res-factor`, 1 unless given; both widths must be one |
+    /// | `width`, `swidth`, `twidth` | `res-factor`, 1 unless given; both widths must be equal |
     /// | `blur`, a fraction of the map's side | `min-size`, half of that in texels: the region is at least so large |
     /// | `bias`, or `bias0` and `bias1`, world units | `bias` |
     /// | `depthfilter` `min` or `midpoint`, with `midpointratio` | `reeves87`, or `woo92` with `ratio` |
@@ -39,7 +39,7 @@ impl Recipe {
     /// ```
     ///
     /// # Errors
-    /// A parameter that is not known or given twice, a value that is not what it must be, and what recipes refuse.
+    /// A parameter that is not known or given twice, an invalid value, and whatever recipes refuse.
     pub fn from_rsl(text: &str, map_size: u32) -> Result<Self, RecipeError> {
         let mut given: Vec<(&str, String)> = Vec::new();
         for part in text.split(',').map(str::trim).filter(|part| !part.is_empty()) {

@@ -1,4 +1,4 @@
-//! All fields: what is known of them together.
+//! The table of all fields.
 
 use crate::fields::FIELDS;
 use crate::{Field, Kind, PresetName, RecipeError, kind};
@@ -26,7 +26,7 @@ impl Field {
     }
 }
 
-/// The table of fields as Markdown, as the documentation of [`Recipe`](crate::Recipe) has it.
+/// The table of fields as Markdown, as in the documentation of [`Recipe`](crate::Recipe).
 #[must_use]
 pub fn markdown() -> String {
     let mut table =

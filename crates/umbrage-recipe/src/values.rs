@@ -49,19 +49,19 @@ pub enum DepthName {
     Engine(EngineBias),
 }
 
-/// Maps of at most so many texels along their larger side are refined more finely by themselves.
+/// Maps of at most this many texels along their larger side are refined more finely by default.
 const SMALL: u32 = 128;
 
-/// Where a light's map is laid.
+/// Where a light's map lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Window {
-    /// As the light's view has it.
+    /// In the light's own view.
     Given,
-    /// About the points that will be shaded.
+    /// Around the points that will be shaded.
     Fitted,
 }
 
-/// All that fields can say, whether a recipe's own filter asks for it or not. What it does not ask for stays as the preset has it.
+/// The values of all fields, whether a recipe's own filter uses them or not. Those that it does not use stay as in the preset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Values {
     pub rule: Rule,
@@ -105,14 +105,14 @@ pub struct Values {
     pub fine: Option<u32>,
     pub slots: Option<u32>,
     pub dual: DualPlane,
-    /// Points of a light with a size, where they are given.
+    /// Points of an area light, where they are given.
     pub maps: Option<u32>,
     pub window: Window,
     pub moments: MomentValues,
 }
 
 impl Values {
-    /// As a preset has them.
+    /// Those of a preset.
     pub fn of(preset: PresetName) -> Self {
         let parts = Self::common();
         if let Some(by) = preset.by_engine() {
@@ -144,7 +144,7 @@ impl Values {
                 Self { biased: Biased::constant(Bias::World(base)), ..parts }
             }
             PresetName::Fernando => {
-                // One texel: what a constant bias is set to where nothing is known of the scene.
+                // One texel, for want of any knowledge of the scene.
                 let fernando = presets::fernando(Bias::Texels(1.0)).filter;
                 let biased = fernando.depth;
                 Self { depth: DepthName::Constant, biased, ..parts.soft(&fernando) }
@@ -168,7 +168,7 @@ impl Values {
         Self { rule, pattern, jittered, res_factor: 0.0, min_size: half, depth, biased, ..self }
     }
 
-    /// What presets have that do not say otherwise.
+    /// The values of presets that do not set others.
     fn common() -> Self {
         let (pcf, cone, plane) = (Pcf::default(), BiasCone::default(), OnPlane::default());
         let (conditional, williams) = (Conditional::default(), Williams::default());
@@ -230,7 +230,7 @@ impl Values {
         Self { search, blur, falloff, shape: radius_gamma, opacity, rescue, ..parts }
     }
 
-    /// How finely maps of facets are kept whose larger side has so many texels: small ones have room for more samples, so that there are about
+    /// How finely maps of facets are refined whose larger side has this many texels: small ones have room for more samples, so that there are about
     /// as many across all of them.
     pub fn refinement(&self, texels: u32) -> Refinement {
         let small = texels <= SMALL && self.slots.is_none_or(|slots| slots <= 8);
@@ -244,7 +244,7 @@ impl Values {
         Self { rule: Rule::Deep, light: None, ..self }
     }
 
-    /// The radii as they are meant together.
+    /// The radii in combination.
     pub fn softness(&self) -> Softness {
         match self.light {
             Some(radius) => Softness::Light { radius, nearest: self.nearest.unwrap_or(0.0) },
@@ -272,7 +272,7 @@ impl Values {
         Depth::Any(any)
     }
 
-    /// What only all fields together can show; `given` are the names of those that were written.
+    /// Checks that need all fields together; `given` are the names of those that were written.
     pub fn check(&self, preset: PresetName, given: &[&str]) -> Result<(), RecipeError> {
         let several = self.sub_samples.is_some_and(|axis| axis > 1);
         if self.rule == Rule::Midpoint && several && self.midpoint.same != SameSurface::Surface {

@@ -5,15 +5,15 @@ use umbrage_plane::{Footprint, TexelRect, View};
 /// A region in the map's texels.
 #[derive(Clone, Copy)]
 pub(crate) struct Area {
-    /// All texels that it touches.
+    /// All texels that the region touches.
     pub rect: TexelRect,
     /// Whether all of it lies inside the map and the cone.
     pub inside: bool,
 }
 
 impl Area {
-    /// [`TexelRect::around`] and [`View::holds`], of all four sides at once where there is no cone. A region of NaN is not inside, and no texel
-    /// in particular is in its rectangle.
+    /// [`TexelRect::around`] and [`View::holds`], of all four sides at once where there is no cone. A region of NaN is not inside, and its
+    /// rectangle is unspecified.
     #[inline(always)]
     pub fn of<S: Simd>(simd: S, view: &View, region: &Footprint) -> Self {
         const FAR: f32 = 1_073_741_824.0;

@@ -1,4 +1,4 @@
-//! What a query does otherwise where it is explained.
+//! What a query does differently when it is explained.
 
 use crate::{Probe, TapJudged};
 use fearless_simd::{Simd, f32x16, prelude::*};
@@ -7,8 +7,8 @@ use umbrage_depth::DepthMap;
 use umbrage_plane::TexelRect;
 use umbrage_sample::Taps;
 
-/// What a map stores under sixteen taps that lie within a rectangle. For explanations it is read one texel after another, which is the same, and
-/// compiled once for each map instead of into every filter.
+/// What a map stores under sixteen taps that lie within a rectangle. For explanations it is read one texel after another, with the same result,
+/// and is compiled once for each map instead of into every filter.
 #[inline(always)]
 pub(crate) fn look<S: Simd, M: DepthMap, P: Probe>(simd: S, map: &M, within: TexelRect, taps: &Taps<S>) -> f32x16<S> {
     if P::EXPLAINS {
@@ -25,7 +25,7 @@ fn one_by_one(map: &impl DepthMap, x: [f32; 16], y: [f32; 16]) -> [f32; 16] {
     std::array::from_fn(|i| map.depth(IVec2::new(index(x[i]), index(y[i]))))
 }
 
-/// Reports sixteen taps to a probe: compared depths, stored ones, and answers. `ruled` is the answer of a place that rules settle.
+/// Reports sixteen taps to a probe: compared depths, stored ones, and results. `ruled` is the result for a place that the view's rules settle.
 #[inline(never)]
 pub(crate) fn report<S: Simd>(
     probe: &mut impl Probe,

@@ -9,20 +9,20 @@ pub struct Explanation {
     pub view: View,
     /// The receiver in the map's space; `None` where it has no place there.
     pub receiver: Option<Receiver>,
-    /// The place by which rules answered alone, where they did.
+    /// The place by which the view's rules alone settled the result, where they did.
     pub placed: Option<Place>,
-    /// The answer that depth ranges alone gave, where they did; true is dark.
+    /// The result that depth ranges alone settled, where they did; true is dark.
     pub culled: Option<bool>,
-    /// The questions that were asked of the map, in their order: one for percentage closer, two where a second test was needed, a search and a
-    /// look-up for soft shadows.
+    /// The look-ups of the map, in their order: one for percentage closer, two where a second test was needed, a search and a look-up for soft
+    /// shadows.
     pub questions: Vec<Question>,
     /// Whether the receiver was compared on its tangent plane (Wang & Molnar 1994).
     pub on_plane: bool,
-    /// Over maps of facets, each place that was judged and what the samples around it say.
+    /// Over maps of facets, each place that was judged and the votes of the samples around it.
     pub places: Vec<PlaceJudged>,
     /// Texels read.
     pub texels: u32,
-    /// The filter's answer, 0 lit to 1 dark.
+    /// The filter's result, from 0 lit to 1 dark.
     pub fraction: f32,
 }
 

@@ -1,8 +1,8 @@
 //! The shadow algorithms: a receiver and a map give the fraction of the receiver that is in shadow.
 //!
-//! An algorithm is three choices: **which surface is stored** (a depth rule, `umbrage-depth`), **where one looks**
-//! (a [`Pattern`](umbrage_sample::Pattern)) and **which depth is compared there** (a [`ReceiverDepth`]). A [`Filter`]
-//! combines the answers, and [`ShadowMap`] binds a filter to a map so that a renderer sees one thing: [`Shadow`].
+//! An algorithm is three choices: **which surface is stored** (a depth rule, `umbrage-depth`), ***where the map is
+//! looked up** (a [`Pattern`](umbrage_sample::Pattern)) and **which depth is compared there** (a [`ReceiverDepth`]). A [`Filter`]
+//! combines the results, and [`ShadowMap`] binds a filter to a map so that a renderer sees one thing: [`Shadow`].
 //!
 //! ```
 //! use glam::{DVec3, UVec2, Vec3};
@@ -24,15 +24,15 @@
 //! ```
 //!
 //! [`presets`] has the algorithms of the papers, each with its limits, and [`presets::auto`], which needs no bias. For a light in
-//! all directions there are [`Around`] and [`LatLong`], for casters that let light pass the deep maps of `umbrage-depth`, for a light
-//! with a size [`Soft`], or [`Mean`] over several maps. A filter of your own is one function of a [`Query`].
+//! all directions there are [`Around`] and [`LatLong`], for casters that let light pass the deep maps of `umbrage-depth`, for an area
+//! light [`Soft`], or [`Mean`] over several maps. A filter of your own is one function of a [`Query`].
 //!
 //! The [conventions](umbrage_plane#conventions) are those of `umbrage-plane`: 1 is dark, equality is lit, and a sample outside the map
-//! answers by the view's [`Rules`](umbrage_plane::Rules). This crate draws nothing and opens no file.
+//! is settled by the view's [`Rules`](umbrage_plane::Rules). This crate draws nothing and opens no file.
 //!
 //! # Features
 //!
-//! * `rayon`: large batches of points are split over the threads of the current pool; the answers are the same bits. Off unless chosen.
+//! * `rayon`: large batches of points are split over the threads of the current pool; the results are the same bits. Off by default.
 
 #![warn(missing_debug_implementations)]
 

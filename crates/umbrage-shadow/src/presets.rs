@@ -11,7 +11,7 @@
 //! // Without a bias, half of every lit surface would lie in its own shadow.
 //! let refused = presets::woo92().over(nearest.clone()).unwrap_err();
 //! assert_eq!(refused.to_string(), "woo92 expects a map of midpoints, but this one stores nearest surfaces");
-//! // These are midpoints; and whoever wants the mixture says so.
+//! // A map of midpoints is accepted, and so is any map where the mixture is wanted explicitly.
 //! assert!(presets::woo92().over(nearest.clone().with_stored(Stored::Midpoint)).is_ok());
 //! let mixture = presets::woo92().over_any(nearest);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -23,20 +23,20 @@ use umbrage_depth::{DepthMap, Stored};
 use umbrage_plane::Bias;
 use umbrage_sample::{Centre, Density, Disc, Jittered};
 
-/// A paper's filter, and which surface its map must store for its comparison to be right.
+/// A paper's filter, and the surface that its map must store for its comparison to be right.
 ///
-/// The filter alone, `filter`, expects nothing and goes over any map.
+/// The filter alone, `filter`, accepts any map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preset<F> {
     /// The paper, as recipes name it.
     pub name: &'static str,
     /// The filter over the map.
     pub filter: F,
-    /// What the map must store: one of these. Never empty.
+    /// The surfaces of which the map must store one. Never empty.
     pub expects: &'static [Stored],
 }
 
-/// A preset was put over a map that stores another surface than its paper's.
+/// A preset was given a map that stores a different surface from its paper's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{preset} expects a map of {expected}, but this one stores {found}")]
 pub struct StoredError {
@@ -58,12 +58,12 @@ impl<F: Filter> Preset<F> {
         Ok(self.over_any(map))
     }
 
-    /// The filter over a map, whatever that stores.
+    /// The filter over a map, whatever surface the map stores.
     pub fn over_any<M: DepthMap>(self, map: M) -> ShadowMap<F, M> {
         ShadowMap { filter: self.filter, map }
     }
 
-    /// Whether a map that stores this surface is one that the paper means.
+    /// Checks that a map which stores this surface is one that the paper's comparison is made for.
     ///
     /// # Errors
     /// [`StoredError`], when it is not.
@@ -77,16 +77,16 @@ impl<F: Filter> Preset<F> {
 
 /// Umbrage's own and the default: two planes instead of a bias, over a map of facets.
 ///
-/// There is nothing to set for a scene. The map must know facets ([`FacetMap`](umbrage_depth::FacetMap)); over others the receiver's plane alone
-/// is compared.
+/// Nothing needs to be set for a scene. The map must hold facets ([`FacetMap`](umbrage_depth::FacetMap)); over other maps only the receiver's plane is
+/// compared.
 pub fn auto() -> Preset<DualPlane> {
     Preset { name: "auto", filter: DualPlane::default(), expects: &[Stored::First] }
 }
 
 /// Williams 1978: nearest texel, no dither, two quanta of 16-bit depth.
 ///
-/// The bias is a fraction of the range from near to far plane in screen depth, two steps of 16 bits, in whatever kind of depth the map
-/// is: it grows with the square of the distance, and suits a range that closely holds the scene. The historical size is 512² in both
+/// The bias is a fraction of the range from near to far plane in screen depth, two steps of 16 bits, whatever kind of depth the map
+/// stores: it grows with the square of the distance, and suits a range that closely encloses the scene. The historical size is 512² in both
 /// views. Edges are as coarse as the map's texels.
 pub fn williams78() -> Preset<Williams> {
     Preset { name: "williams78", filter: Williams::default(), expects: &[Stored::First] }
@@ -94,8 +94,8 @@ pub fn williams78() -> Preset<Williams> {
 
 /// Reeves, Salesin & Cook 1987 as their listing sets the parameters (Fig. 4).
 ///
-/// The bias, drawn from .3 to .4, is in world units, for scenes of about 100 units: multiply it by the size of yours. It is wider than
-/// some contacts, where light leaks, and too small for the steep texels of a low light.
+/// The bias, drawn from .3 to .4, is in world units, for scenes of about 100 units: multiply it by the size of yours. It is larger
+/// than some gaps at contacts, where light leaks, and too small for the steep texels of a low light.
 pub fn reeves87() -> Preset<Pcf> {
     Preset { name: "reeves87", filter: Pcf::default(), expects: &[Stored::First] }
 }
@@ -114,9 +114,9 @@ pub fn ordinary(bias: Bias) -> Preset<Pcf<Centre>> {
 
 /// Woo 1992: the listing of 1987 without any bias, over a map of midpoints.
 ///
-/// Meant for a spot light with [`Rules::SPOT`](umbrage_plane::Rules::SPOT), which are Woo's rule of the cone; the paper's map is 256²
-/// under 75°. Solids thinner than a texel's own step of depth shadow themselves, and so does whatever another surface lies close
-/// behind: a rug on a floor, a floor that is drawn twice, boxes that touch along a seam.
+/// It is meant for a spot light with [`Rules::SPOT`](umbrage_plane::Rules::SPOT), which are Woo's rule of the cone; the paper's map is 256²
+/// under 75°. Solids thinner than a texel's own step of depth shadow themselves, and so does anything with another surface close
+/// behind it: a rug on a floor, a floor that is drawn twice, boxes that touch along a seam.
 pub fn woo92() -> Preset<Pcf> {
     let filter = Pcf::default().with_depth(Biased::constant(Bias::ZERO));
     Preset { name: "woo92", filter, expects: &[Stored::Midpoint] }
@@ -124,7 +124,7 @@ pub fn woo92() -> Preset<Pcf> {
 
 /// Wang & Molnar 1994: the nearest four texels of a map of second surfaces, the tangent plane where they disagree, no bias.
 ///
-/// Needs closed solids, or sheets that are flagged as such. Back faces are second surfaces where solids do not reach into each other.
+/// It needs closed solids, or sheets that are flagged as such. Back faces are second surfaces where solids do not overlap.
 pub fn wang_molnar94() -> Preset<Conditional> {
     Preset { name: "wang-molnar94", filter: Conditional::default(), expects: &[Stored::BackFace, Stored::Second] }
 }
@@ -132,7 +132,7 @@ pub fn wang_molnar94() -> Preset<Conditional> {
 /// Burley 2006: soft shadows from one map with the bias cone.
 ///
 /// The cone's slope of 2 is free of false shadow up to a tilt of 63.4° between surface and light; steeper surfaces shadow themselves. Its
-/// bias grows with the distance that is looked at, so that wide filters lose low occluders.
+/// bias grows with the distance of a tap, so that wide filters lose low occluders.
 pub fn burley() -> Preset<Soft> {
     Preset { name: "burley", filter: Soft::default(), expects: &[Stored::First] }
 }
@@ -146,9 +146,10 @@ pub fn fernando(bias: Bias) -> Preset<Soft<Biased>> {
 
 /// Donnelly & Lauritzen 2006: variance shadow maps, with a fifth of the visibility cut off against light bleeding (Lauritzen 2007, GPU Gems 3, ch. 8).
 ///
-/// The map is a [`MomentMap`](umbrage_depth::MomentMap) of [`Moments::Variance`](umbrage_depth::Moments::Variance), as those of the following presets are of
-/// the moments that they name; over a map without moments the four nearest texels are compared. Where a surface lies behind two others at different depths, light
-/// bleeds through by what the nearer ones vary.
+/// The map is a [`MomentMap`](umbrage_depth::MomentMap) of [`Moments::Variance`](umbrage_depth::Moments::Variance), as the following presets' maps are of
+/// the moments that they name; over a map without moments the four nearest texels are compared. Where a surface lies behind two others at different depths,
+/// light
+/// bleeds through in proportion to how much the nearer ones vary.
 ///
 /// ```
 /// use glam::{DVec3, UVec2, Vec3};
@@ -173,7 +174,7 @@ pub fn vsm() -> Preset<FromMoments> {
 
 /// Annen, Mertens, Seidel, Flerackers & Kautz 2008: exponential shadow maps, over [`Moments::ESM`](umbrage_depth::Moments::ESM).
 ///
-/// Shadows fade toward their casters: what lies closer behind them than a few parts in the sharpness of the depth range is partly lit.
+/// Shadows fade toward their casters: what lies closer behind them than a few times the depth range over the sharpness is partly lit.
 pub fn esm() -> Preset<FromMoments> {
     moments("esm", FromMoments::default().with_bleeding(0.0))
 }
@@ -187,15 +188,15 @@ pub fn evsm2() -> Preset<FromMoments> {
 
 /// The same with a second exponential, the better of both bounds, over [`Moments::EVSM4`](umbrage_depth::Moments::EVSM4).
 ///
-/// Tilted planes shadow themselves by the second one, against which stands a bias of one depth step.
+/// The second one makes tilted planes shadow themselves, which a bias of one depth step prevents.
 pub fn evsm4() -> Preset<FromMoments> {
     moments("evsm4", FromMoments::default().with_bleeding(0.1).with_bias(Bias::Steps(1.0)))
 }
 
 /// Peters & Klein 2015: moment shadow maps with four moments, over [`Moments::Four`](umbrage_depth::Moments::Four), with a fiftieth of the visibility cut off.
 ///
-/// The sharpest of them: three surfaces over one another are told apart. So it shadows tilted planes nearly as percentage closer filtering
-/// would without a bias, against which stands one of two depth steps, which suits regions of a few texels.
+/// The sharpest of them: it distinguishes three surfaces over one another. Tilted planes would therefore shadow themselves nearly as with
+/// percentage-closer filtering without a bias, which a bias of two depth steps prevents for regions of a few texels.
 pub fn msm() -> Preset<FromMoments> {
     moments("msm", FromMoments::default().with_bleeding(0.02).with_bias(Bias::Steps(2.0)))
 }

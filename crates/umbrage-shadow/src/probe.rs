@@ -13,9 +13,9 @@ pub struct TapJudged {
     pub compared: f32,
     /// How much it counts.
     pub weight: f32,
-    /// The answer of the view's rules for its place, where they have one; the depths do not count then.
+    /// The result of the view's rules for its place, where they settle it; the depths do not count then.
     pub ruled: Option<f32>,
-    /// The answer: 0 lit, 1 dark, between them where casters let light pass.
+    /// The result: 0 lit, 1 dark, in between where casters let light pass.
     pub dark: f32,
 }
 
@@ -26,16 +26,17 @@ pub struct PlaceJudged {
     pub at: DVec2,
     /// Whether the view's rules call it dark, where they settle it; votes do not count then.
     pub ruled: Option<bool>,
-    /// What the samples around it say: upper left, upper right, lower left, lower right.
+    /// The votes of the samples around it: upper left, upper right, lower left, lower right.
     pub votes: [Vote; 4],
     /// Where the sides between samples of different votes are crossed by the shadow's edge: upper and lower from the left, left and right from above.
     pub crossings: [Option<Crossing>; 4],
-    /// The answer.
+    /// The result.
     pub dark: bool,
 }
 
-/// What a sample of a map of facets says of a place: dark where the receiver's plane lies behind the facet's by more than `passed` both at the sample and at the
-/// place. Distances are world units along the light's axis, by what a step of depth is there at the receiver; −∞ where the sample sees nothing.
+/// The vote of a sample of a map of facets on a place: dark where the receiver's plane lies behind the facet's by more than `passed` both at the sample and at
+/// the
+/// place. Distances are world units along the light's axis, converted by the size of a depth step at the receiver; −∞ where the sample sees nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vote {
     /// The facet's plane, where it was sampled, and how wide the sample is.
@@ -44,18 +45,18 @@ pub struct Vote {
     pub at_sample: f64,
     /// The same at the place that is judged.
     pub at_place: f64,
-    /// What both must be more than: what the sample's width and the gentler slope leave open, and roundings.
+    /// The margin that both must exceed: what the sample's width and the gentler slope leave open, and roundings.
     pub passed: f64,
-    /// What it says.
+    /// The vote.
     pub dark: bool,
 }
 
 /// Where the side between two samples is crossed, 0 at the first and 1 at the second, and how that is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Crossing {
-    /// The map saw there one surface end before the other.
+    /// There the map's links say that one surface ends in front of the other.
     Link(f64),
-    /// The receiver's plane passes there from behind one facet to before the other.
+    /// There the receiver's plane passes from behind one facet to in front of the other.
     Planes(f64),
     /// Nothing is known.
     Halfway,
@@ -76,15 +77,15 @@ impl Crossing {
 /// Receives what a filter does, for counters and for explanations. Every method does nothing unless overridden, and `()` is the probe that costs nothing.
 pub trait Probe {
     /// Whether [`Probe::judged`] is called for every place that is judged, and [`Probe::tapped`] for every tap, which takes longer than the
-    /// answer itself. A constant, so that filters are compiled without it for probes that only count.
+    /// result itself. A constant, so that filters are compiled without it for probes that only count.
     const EXPLAINS: bool = false;
 
-    /// A receiver whose answer its place alone settled.
+    /// A receiver that its place alone settled.
     #[inline(always)]
     fn placed(&mut self, place: Place) {
         let _ = place;
     }
-    /// A region settled by depth ranges without a look-up; `dark` is the answer.
+    /// A region settled by depth ranges without a look-up; `dark` is the result.
     #[inline(always)]
     fn culled(&mut self, dark: bool) {
         let _ = dark;
@@ -97,12 +98,12 @@ pub trait Probe {
     /// A region that was compared on its tangent plane (Wang & Molnar 1994).
     #[inline(always)]
     fn virtual_sampled(&mut self) {}
-    /// A place of a region over a map of facets: what the samples around it say, and why it is lit or dark. Told only when [`Probe::EXPLAINS`].
+    /// A place of a region over a map of facets: the votes of the samples around it, and why it is lit or dark. Called only when [`Probe::EXPLAINS`].
     #[inline(always)]
     fn judged(&mut self, place: &PlaceJudged) {
         let _ = place;
     }
-    /// The taps that follow are one question. Called only when [`Probe::EXPLAINS`].
+    /// The taps that follow belong to one look-up. Called only when [`Probe::EXPLAINS`].
     #[inline(always)]
     fn asked(&mut self) {}
     /// One tap of a region. Called only when [`Probe::EXPLAINS`].
@@ -122,7 +123,7 @@ impl Probe for () {}
 /// Counts of what filters did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
-    /// Receivers answered by their place.
+    /// Receivers settled by their place.
     pub placed: u64,
     /// Regions found lit by ranges alone.
     pub culled_lit: u64,

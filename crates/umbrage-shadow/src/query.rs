@@ -10,10 +10,10 @@ use umbrage_depth::{DepthMap, Translucent};
 use umbrage_plane::{DepthRange, Footprint, Receiver, Verdict, View};
 use umbrage_sample::{Key, Pattern, Taps};
 
-/// Combines what a map says around a receiver into a fraction in shadow.
+/// Combines what a map stores around a receiver into a fraction in shadow.
 ///
-/// A filter of one's own is a struct with its parameters and this one function, which asks the [`Query`]: for a region, for the
-/// fraction in shadow of a pattern's taps, or for each tap. Here are percentage-closer soft shadows (Fernando 2005):
+/// A filter of your own is a struct with its parameters and this one function, which uses the [`Query`]: for a region, for the fraction in shadow of a
+/// pattern's taps, or for each tap. Here are percentage-closer soft shadows (Fernando 2005):
 ///
 /// ```
 #[doc = include_str!("../examples/filter/pcss.rs")]
@@ -25,7 +25,7 @@ pub trait Filter: Send + Sync {
     fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32;
 }
 
-/// [`Filter`] of something that stands for another filter.
+/// [`Filter`] of something that wraps another filter.
 macro_rules! forward {
     ($type:ty) => {
         impl<F: Filter> Filter for $type {
@@ -40,10 +40,10 @@ macro_rules! forward {
 forward!(&F);
 forward!(Arc<F>);
 
-/// One receiver asked of one map: everything that a [`Filter`] works with.
+/// One receiver to look up in one map: everything that a [`Filter`] works with.
 ///
 /// What every filter must get right is here once: the limit on a region's size, the rules for places outside the map and the
-/// cone, what deep maps let through, weights, counts and culling. A filter that gives its answer by [`share`](Self::share), or
+/// cone, what deep maps let through, weights, counts and culling. A filter that computes its result by [`share`](Self::share), or
 /// that honours what [`each`](Self::each) reports, has all of it.
 pub struct Query<'a, S: Simd, M, P> {
     simd: S,
@@ -57,7 +57,7 @@ pub struct Query<'a, S: Simd, M, P> {
 }
 
 impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
-    /// Asks `map` about `receiver`, whose depth is of the map's kind. `key` is the region's own, and `probe` observes.
+    /// A query of `map` for `receiver`, whose depth is of the map's kind. `key` is the region's own, and `probe` observes.
     #[inline(always)]
     pub fn new(simd: S, map: &'a M, receiver: &'a Receiver, key: Key, probe: &'a mut P) -> Self {
         Self { simd, map, receiver, key, channel: Channel::All, probe, looked: None }
@@ -69,7 +69,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         Self { channel, ..self }
     }
 
-    /// The answer of a filter; `probe` is given the count of texels.
+    /// The result of a filter; `probe` is given the count of texels.
     #[inline(always)]
     pub fn ask(mut self, filter: &impl Filter) -> f32 {
         let dark = filter.shadow(&mut self);
@@ -91,7 +91,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         self.receiver
     }
 
-    /// Names the region; random numbers are drawn by it.
+    /// Identifies the region; random numbers are drawn by it.
     #[inline(always)]
     pub fn key(&self) -> Key {
         self.key
@@ -103,7 +103,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         self.probe
     }
 
-    /// The map itself, for what a region or a texel cannot say.
+    /// The map itself, for what neither a region nor a texel provides.
     #[inline(always)]
     pub(crate) fn map(&self) -> &'a M {
         self.map
@@ -131,7 +131,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         self.view().size().as_vec2() * 0.25
     }
 
-    /// The answer where the place of a texel position alone settles it by the view's rules: 0 lit, 1 in shadow.
+    /// The result where the place of a texel position alone settles it by the view's rules: 0 lit, 1 in shadow.
     #[inline(always)]
     pub fn placed(&mut self, texel: Vec2) -> Option<f32> {
         let place = self.view().locate(texel);
@@ -140,10 +140,10 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         Some(dark)
     }
 
-    /// The answer for a whole region where depth ranges settle it without a look-up: 0 lit, 1 in shadow. `None` where they do not, and
+    /// The result for a whole region where depth ranges settle it without a look-up: 0 lit, 1 in shadow. `None` where they do not, and
     /// always `None` over deep maps and for regions that reach out of the map or the cone.
     ///
-    /// It never differs from what [`share`](Self::share) answers.
+    /// It never differs from the result of [`share`](Self::share).
     #[inline(always)]
     pub fn settled(&mut self, region: &Footprint, depth: &impl ReceiverDepth) -> Option<f32> {
         let compared = depth.prepared(self.view(), self.receiver);
@@ -166,8 +166,8 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         Some(f32::from(u8::from(dark)))
     }
 
-    /// What [`settled`](Self::settled) answers, and where that is nothing, what [`share`](Self::share) does; in less time than one after the
-    /// other. Without `cull` only the second is used: the same answer.
+    /// The result of [`settled`](Self::settled), and where that is `None`, the result of [`share`](Self::share), in less time than one after
+    /// the other. Without `cull` only the second is used, with the same result.
     #[inline(always)]
     pub fn settled_or_share(
         &mut self,
@@ -188,7 +188,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
 
     /// The fraction of a region's taps that are in shadow, weights included; 0 where there is no tap.
     ///
-    /// Taps outside the map or the cone answer by the view's rules, texels of deep maps by what passes them (Burley 2006).
+    /// Taps outside the map or the cone are settled by the view's rules, texels of deep maps by the light that passes them (Burley 2006).
     #[inline(always)]
     pub fn share(&mut self, region: &Footprint, pattern: &impl Pattern, depth: &impl ReceiverDepth) -> f32 {
         self.share_by(region, pattern, depth, nearer)
@@ -232,7 +232,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
             |taps, compared| {
                 if let Some(deep) = deep {
                     let from = Passing { deep, channel, view, inside, weighted };
-                    // Of a copy: the taps themselves stay in registers where no other function is given them.
+                    // A copy is passed: the taps themselves stay in registers if no other function is given them.
                     from.add(&{ *taps }, &compared.into(), (&mut hits, &mut count));
                     if P::EXPLAINS {
                         let compared: [f32; 16] = compared.into();
@@ -342,7 +342,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         self.count(looked);
     }
 
-    /// The nearest surfaces under sixteen taps at a time, whatever passes them: `f` is given the region where they lie, the taps, the
+    /// The nearest surfaces under sixteen taps at a time, whether or not light passes them: `f` is given the region where they lie, the taps, the
     /// compared and the stored depths. Rules are left to the caller.
     #[inline(always)]
     pub(crate) fn nearest(
@@ -400,7 +400,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         looked
     }
 
-    /// What one texel stores. Places outside the map hold nothing; whether they are lit is for [`Query::placed`] to say.
+    /// What one texel stores. Places outside the map hold nothing; [`Query::placed`] determines whether they are lit.
     #[inline(always)]
     pub fn texel(&mut self, texel: IVec2) -> Surfaces<'a> {
         self.count(1);
@@ -462,7 +462,7 @@ impl Passing<'_> {
     }
 }
 
-/// The hits of a batch of taps with those outside the map or the cone answered by the view's rules (Woo 1992). Few regions reach
+/// The hits of a batch of taps with those outside the map or the cone settled by the view's rules (Woo 1992). Few regions reach
 /// out, so that this stands apart from the loop around it, which is compiled many times.
 #[inline(never)]
 fn by_rules<S: Simd>(view: &View, taps: &Taps<S>, mut nearer: u32) -> u32 {
@@ -476,12 +476,12 @@ fn by_rules<S: Simd>(view: &View, taps: &Taps<S>, mut nearer: u32) -> u32 {
     nearer
 }
 
-/// The answer of one tap whose place settles it, where not all taps are known to lie inside the map and the cone.
+/// The result of one tap whose place settles it, where not all taps are known to lie inside the map and the cone.
 fn ruled(view: &View, inside: bool, texel: Vec2) -> Option<f32> {
     if inside { None } else { by_rule(view, texel) }
 }
 
-/// The answer of one tap whose place settles it.
+/// The result of one tap whose place settles it.
 #[inline(always)]
 fn by_rule(view: &View, texel: Vec2) -> Option<f32> {
     answer(view.rules().verdict(view.locate(texel)))

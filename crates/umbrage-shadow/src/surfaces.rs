@@ -57,7 +57,7 @@ impl Seen<'_> {
 /// What a tap meets.
 #[derive(Clone, Debug)]
 pub enum Met<'a> {
-    /// Its place settles the answer by the view's [`Rules`](umbrage_plane::Rules): 0 is lit, 1 is in shadow. Whatever the map
+    /// Its place settles the result by the view's [`Rules`](umbrage_plane::Rules): 0 is lit, 1 is in shadow. Whatever the map
     /// holds there does not count.
     Settled(f32),
     /// What the map stores there.
@@ -108,7 +108,7 @@ impl<'a> Surfaces<'a> {
         }
     }
 
-    /// Each surface, nearest first: its depth and the fraction of the light that it stops of what left the lamp. The fractions of a
+    /// Each surface, nearest first: its depth and the fraction of the light from the lamp that it stops. The fractions of a
     /// texel add up to 1 where nothing passes.
     pub fn iter(&self) -> impl Iterator<Item = (f32, f32)> + '_ {
         let (plain, deep) = match &self.0 {

@@ -1,18 +1,19 @@
-//! What a server asks of whoever draws.
+//! What a server needs from the program that draws.
 
 use crate::{Ask, State};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Whoever draws for the page. All may be called from any thread, [`picture`](Self::picture) and [`explanation`](Self::explanation) from two at once.
+/// The program that draws for the page. All functions may be called from any thread, [`picture`](Self::picture) and [`explanation`](Self::explanation) from
+/// two at once.
 pub trait Answers: Send + Sync + 'static {
-    /// What the page has to know before it asks anything: JSON that it reads once.
+    /// What the page has to know before its first request: JSON that it reads once.
     fn about(&self) -> String;
 
-    /// The command lines that draw what a state shows, as JSON. Comes back at once.
+    /// The command lines that draw what a state shows, as JSON. Returns at once.
     ///
     /// # Errors
-    /// [`Refusal::Wrong`] for a state that makes no sense.
+    /// [`Refusal::Wrong`] for an invalid state.
     fn lines(&self, state: &State) -> Result<String, Refusal>;
 
     /// A picture.
@@ -33,25 +34,25 @@ pub trait Answers: Send + Sync + 'static {
 pub struct Picture {
     /// The bytes of a PNG file.
     pub png: Vec<u8>,
-    /// What is said of it: JSON in one line of printable ASCII.
+    /// Facts about it: JSON in one line of printable ASCII.
     pub about: String,
 }
 
 /// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// What was asked makes no sense, or cannot be had: a line that says why.
+    /// The request is invalid or impossible: a line that explains why.
     Wrong(String),
     /// [`Stop`] was set.
     Stopped,
 }
 
-/// Set once nobody waits for an answer any more. Whoever draws looks at it often.
+/// Set once nobody waits for an answer any more. The drawing code reads it often.
 #[derive(Clone, Debug, Default)]
 pub struct Stop(Arc<AtomicBool>);
 
 impl Stop {
-    /// Says that nobody waits.
+    /// Records that nobody waits.
     pub fn set(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
@@ -61,7 +62,7 @@ impl Stop {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Nothing while somebody waits.
+    /// Succeeds while somebody waits.
     ///
     /// # Errors
     /// [`Refusal::Stopped`].

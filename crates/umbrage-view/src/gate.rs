@@ -61,7 +61,7 @@ impl Gate {
     /// What is asked for below the token; `None` where that is another one.
     pub fn inside<'a>(&self, path: &'a str) -> Option<&'a str> {
         let (token, inside) = path.strip_prefix('/')?.split_once('/')?;
-        // All bytes are compared, so that time does not say how many are right.
+        // All bytes are compared, so that the time does not reveal how many are right.
         let differ = token.bytes().zip(self.token.bytes()).fold(0, |differ, (a, b)| differ | (a ^ b));
         (token.len() == self.token.len() && differ == 0).then_some(inside)
     }

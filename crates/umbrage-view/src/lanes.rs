@@ -1,4 +1,4 @@
-//! Who is drawn for first.
+//! The order in which requests are drawn.
 
 use crate::Stop;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -7,7 +7,7 @@ use tokio::sync::{Semaphore, SemaphorePermit};
 /// Most requests that wait to be drawn; further ones are refused.
 const MOST_WAITING: usize = 128;
 
-/// One lane for what is drawn at once, one for what takes long; one picture at a time in each.
+/// One lane for pictures that are drawn at once, one for those that take long; one picture at a time in each.
 pub struct Lanes {
     waiting: Arc<Semaphore>,
     quick: Arc<Semaphore>,
@@ -61,12 +61,12 @@ impl Lanes {
         Self { waiting: Arc::new(Semaphore::new(MOST_WAITING)), quick: one(), slow: one(), now: Arc::default() }
     }
 
-    /// A place among those who wait; `None` where there are too many.
+    /// A place among the waiting requests; `None` where there are too many.
     pub fn enter(&self) -> Option<SemaphorePermit<'_>> {
         self.waiting.try_acquire().ok()
     }
 
-    /// Runs what draws on a thread of its own once it is its turn; `None` where it stopped by a fault of its own. A quick picture stops the slow one that is being drawn.
+    /// Runs the drawing on a thread of its own once it is its turn; `None` where it panicked. A quick picture stops the slow one that is being drawn.
     pub async fn run<T: Send + 'static>(
         &self,
         is_slow: bool,

@@ -8,11 +8,11 @@ use hyper::{Response, StatusCode};
 
 pub type Reply = Response<Full<Bytes>>;
 
-/// The page loads nothing but itself, and stands in no other page.
+/// The page loads nothing but itself, and cannot be embedded in another page.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src 'self'; \
                       base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// What a picture's header of words about it is called.
+/// The name of the header with facts about a picture.
 const ABOUT: &str = "umbrage-about";
 
 /// A reply of a type.
@@ -35,7 +35,7 @@ pub fn reply(status: StatusCode, kind: &'static str, bytes: impl Into<Bytes>) ->
     reply
 }
 
-/// A line of text that says what is wrong.
+/// A line of text that names what is wrong.
 pub fn refused(status: StatusCode, line: &str) -> Reply {
     let line = line.replace(['\n', '\r'], " ");
     let mut reply = reply(status, "text/plain; charset=utf-8", format!("{line}\n"));

@@ -21,7 +21,7 @@ use tokio::sync::Semaphore;
 
 /// How long a client may take for the head of a request, and how long a connection may be idle.
 pub const HEAD_TIME: Duration = Duration::from_secs(5);
-/// How long a client may take no bytes of a reply.
+/// How long a client may read no bytes of a reply.
 pub const STALL_TIME: Duration = Duration::from_secs(10);
 /// Most connections at once; further ones wait.
 pub const MOST_CONNECTIONS: usize = 256;
@@ -54,7 +54,7 @@ impl Server {
     /// Answers for as long as the program runs.
     ///
     /// # Errors
-    /// Where the operating system has no place for the server's work.
+    /// Where the operating system lacks the resources for the server's work.
     pub fn run(self, answers: Arc<dyn Answers>) -> io::Result<()> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         runtime.block_on(self.accept(answers))
@@ -67,7 +67,7 @@ impl Server {
         loop {
             let Ok(place) = Arc::clone(&places).acquire_owned().await else { return Ok(()) };
             let Ok((stream, _)) = listener.accept().await else {
-                // Too many open files, or a client that is gone already: others may fare better.
+                // Too many open files, or a client that is already gone: later ones may succeed.
                 tokio::time::sleep(Duration::from_millis(20)).await;
                 continue;
             };
@@ -81,7 +81,7 @@ impl Server {
                 });
                 let mut http = http1::Builder::new();
                 http.timer(TokioTimer::new()).header_read_timeout(HEAD_TIME).max_buf_size(MOST_HEAD);
-                // A client that breaks off is no fault of ours.
+                // A client that disconnects is not an error of the server.
                 let _ = http.serve_connection(TokioIo::new(Stalls::new(stream, STALL_TIME)), service).await;
                 drop(place);
             });
@@ -152,7 +152,7 @@ impl Site {
         work: impl FnOnce(&dyn Answers, &Stop) -> Result<Reply, crate::Refusal> + Send + 'static,
     ) -> Reply {
         let Some(_place) = self.lanes.enter() else {
-            return refused(StatusCode::SERVICE_UNAVAILABLE, "too many pictures are waited for");
+            return refused(StatusCode::SERVICE_UNAVAILABLE, "too many pictures are waiting to be drawn");
         };
         let end = StopAtEnd(Stop::default());
         let (answers, stop) = (Arc::clone(&self.answers), end.0.clone());
@@ -160,7 +160,7 @@ impl Site {
         match self.lanes.run(is_slow, &end.0, work).await {
             Some(Ok(reply)) => reply,
             Some(Err(refusal)) => no_answer(&refusal),
-            None => refused(StatusCode::INTERNAL_SERVER_ERROR, "a fault of the program: its command has printed which"),
+            None => refused(StatusCode::INTERNAL_SERVER_ERROR, "the program failed: its command has printed the error"),
         }
     }
 }

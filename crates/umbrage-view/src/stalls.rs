@@ -1,4 +1,4 @@
-//! A connection that gives up clients which take no bytes.
+//! A connection that drops clients which read no bytes.
 
 use std::future::Future;
 use std::io;
@@ -9,7 +9,7 @@ use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::net::TcpStream;
 use tokio::time::{Sleep, sleep};
 
-/// A stream whose writes fail once none has got further for a time.
+/// A stream whose writes fail once none has made progress for a time.
 pub struct Stalls {
     stream: TcpStream,
     time: Duration,

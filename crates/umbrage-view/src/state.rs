@@ -12,13 +12,13 @@ const MOST_PIXELS: u32 = 16_384;
 /// Most bytes of a text.
 const MOST_TEXT: usize = 4096;
 
-/// What is seen in the picture's place.
+/// What the picture shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Show {
     /// The lit picture.
     #[default]
     Picture,
-    /// The share in shadow of one light.
+    /// The fraction of one light in shadow.
     Shadow,
     /// The lit picture by rays.
     Truth,
@@ -90,7 +90,7 @@ pub struct State {
     pub turns: Vec<String>,
     /// Samples for each pixel.
     pub samples: Option<u32>,
-    /// Where truth begins, as a share of the picture's width, 0 to 1; `None` where it is not wiped against.
+    /// Where truth begins, as a fraction of the picture's width, 0 to 1; `None` where truth is not shown beside the result.
     pub wipe: Option<f64>,
     /// Column and row of the pixel that is explained, from 0.
     pub pixel: Option<[u32; 2]>,
@@ -203,7 +203,7 @@ fn whole(value: &str, least: u32, most: u32) -> Option<u32> {
     value.parse().ok().filter(|number| digits && (least..=most).contains(number))
 }
 
-/// Which of the two pictures that are wiped.
+/// Which of the two pictures on either side of the divider.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Of {
     /// What the state shows.

@@ -1,4 +1,4 @@
-//! What gives way where a refined map would take too many bytes.
+//! How a refined map that would take too many bytes is reduced.
 
 use super::refined::Parts;
 use rayon::prelude::*;
@@ -10,10 +10,10 @@ const MOST_BYTES: usize = 10;
 /// Bytes that any map may take, however small: those of 256 × 256 texels. Finely cut things need as much in fewer texels.
 const LEAST: usize = 256 * 256 * MOST_BYTES;
 
-/// How exactly a tile is kept.
+/// How exactly a tile is stored.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Level {
-    /// How much farther than the refinement says a sample may lie off its texel's plane.
+    /// The factor by which a sample may lie farther off its texel's plane than the refinement allows.
     pub tolerance: f64,
     /// Samples may share a plane that is nearly their own.
     pub merged: bool,
@@ -22,10 +22,10 @@ pub(super) struct Level {
 }
 
 impl Level {
-    /// Everything as the refinement says.
+    /// Everything as the refinement requires.
     pub const ALL: Self = Self { tolerance: 1.0, merged: false, parts: Parts::All };
 
-    /// What is tried in turn: planes that are shared; only edges that are worth more and more texels; no samples.
+    /// The reductions that are tried in turn: shared planes; only edges that matter by more and more texels; no samples.
     const LESS: [Self; 5] = [
         Self { tolerance: 1.0, merged: true, parts: Parts::All },
         Self { tolerance: 2.0, merged: true, parts: Parts::All },
@@ -35,8 +35,8 @@ impl Level {
     ];
 }
 
-/// The tiles of a map of so many texels, within its bytes: those that take most are made anew with less, as few as will do. `again` makes one by its
-/// index.
+/// The tiles of a map of this many texels, within its bytes: those that take most are made anew with less, and as few of them as suffice. `again`
+/// makes one by its index.
 pub(super) fn within(
     texels: usize,
     mut tiles: Vec<Option<FacetTile>>,
@@ -51,7 +51,7 @@ pub(super) fn within(
         left.sort_by_key(|index| std::cmp::Reverse(bytes(&tiles[*index])));
         let mut left = left.as_slice();
         while !left.is_empty() {
-            // As many as would be enough if each saved half of its bytes.
+            // As many as would suffice if each saved half of its bytes.
             let mut hoped = 0;
             let count = left.iter().take_while(|index| {
                 let more = hoped <= over;

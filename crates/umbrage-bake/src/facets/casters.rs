@@ -12,12 +12,12 @@ pub(super) struct Casters<'a> {
 }
 
 impl Casters<'_> {
-    /// Those among the facets that may be seen in a region (in 1/256 texel). What may have holes hides nothing.
+    /// Those among the facets that may be seen in a region (in 1/256 texel). A facet that may have holes hides nothing.
     pub fn shown(&self, region: TexelRect, among: impl IntoIterator<Item = u32>, shown: &mut Vec<Shown>) {
         self.gathered.shown(region, among, |facet| self.masks.of(facet).is_none(), shown);
     }
 
-    /// The facet that is all that is shown, and that all over the region.
+    /// The only facet that is shown, where it covers the whole region.
     pub fn one(&self, shown: &[Shown]) -> Option<u32> {
         match *shown {
             [Shown { number, covers: true }] if self.masks.of(&self.gathered.facet(number)).is_none() => Some(number),
@@ -25,7 +25,7 @@ impl Casters<'_> {
         }
     }
 
-    /// Whether anything of a facet is at a place of the map, in texels.
+    /// Whether a facet has no hole at a place of the map, in texels.
     #[cold]
     pub fn is_there(&self, facet: &Facet, at: DVec2) -> bool {
         self.masks.of(facet).is_none_or(|masked| self.masks.is_there(masked, facet, at))

@@ -15,7 +15,7 @@ pub(super) struct Links<'a> {
     pub grid: Grid,
     /// The part's first texel in the tile.
     pub first: IVec2,
-    /// What is covered of the part's rows and columns.
+    /// The coverage of the part's rows and columns.
     pub spans: [&'a Spans; 2],
     pub slots: i32,
     /// Samples along a texel's side.
@@ -41,7 +41,7 @@ impl Links<'_> {
         }
     }
 
-    /// The link of a sample to the next one, where it is kept: both are on the map, and their planes do not meet there.
+    /// The link of a sample to the next one, where it is stored: both are on the map, and their planes do not meet there.
     #[inline(always)]
     fn link(&self, lines: Lines, [x, y]: [usize; 2]) -> Option<u8> {
         let grid = self.grid;

@@ -1,13 +1,13 @@
-//! Planes that are nearly one: fewer of them, where facets are smaller than samples.
+//! Planes that are nearly equal are merged, where facets are smaller than samples.
 
 use glam::{DVec2, IVec2};
 use umbrage_depth::{FacetBlock, FacetCells, NO_FACET, TILE};
 use umbrage_plane::{Affine, View};
 
-/// How far a shared plane may be from a sample's own there, in widths of the sample: half of what the sample must be passed by.
+/// How far a shared plane may be from a sample's own there, in widths of the sample: half of the margin by which the sample must be passed.
 const NEAR: f64 = 0.25;
 
-/// The texels and blocks of a tile whose upper left texel is `origin`, with samples on the plane of one beside them where that is nearly their own.
+/// The texels and blocks of a tile whose upper left texel is `origin`, with samples put on the plane of a neighbouring one where that is nearly their own.
 pub(super) fn merged(view: &View, cells: &FacetCells<'_>, origin: IVec2, fine: u32) -> (Vec<u32>, Vec<FacetBlock>) {
     let planes = Near { view, planes: cells.planes };
     let columns = TILE as usize;

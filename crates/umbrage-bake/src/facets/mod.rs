@@ -1,4 +1,4 @@
-//! Pass 1 of maps that keep facets.
+//! Pass 1 of maps that store facets.
 
 mod budget;
 mod casters;
@@ -28,17 +28,17 @@ use umbrage_raster::{BIN, Bins, Cull, Stats, each_fragment};
 /// Cells of a tile.
 const CELLS: usize = (BIN * BIN) as usize;
 
-/// A map of facets, and what became of the triangles.
+/// A map of facets, and the statistics of its triangles.
 #[derive(Clone, Debug)]
 pub struct BakedFacets {
     /// The map.
     pub map: Arc<FacetMap>,
-    /// What the rasteriser did with the triangles.
+    /// How the rasteriser handled the triangles.
     pub stats: Stats,
 }
 
-/// [`bake`](crate::bake), keeping which facet each texel sees: the same depths, bit for bit, in less room where facets are larger than a
-/// few texels. Of facets at one key the first triangle's.
+/// As [`bake`](crate::bake), but storing which facet each texel sees: the same depths, bit for bit, in less memory where facets are
+/// larger than a few texels. Of facets with equal keys the first triangle's is stored.
 pub fn bake_facets<'a, R: FacetRule>(
     view: &View,
     casters: impl IntoIterator<Item: Into<Caster<'a>>>,
@@ -79,12 +79,13 @@ pub fn bake_facets<'a, R: FacetRule>(
 }
 
 /// The nearest facet of each texel and, where the surface over a texel is not one plane, of `fine` × `fine` samples in it with links between
-/// them: what [`DualPlane`] asks. Texels are sampled at their centres, whatever the view's own sampling.
+/// them: the map for [`DualPlane`]. Texels are sampled at their centres, whatever the view's own sampling.
 ///
 /// A texel is refined when one of its samples, or the first sample beyond its right or lower side, lies off its own plane by more than
-/// the tolerance, as far as ten bytes for each of the map's texels go round, or as 640 KB do: beyond them, the tiles that take most let samples share planes that are nearly their own, then refine
-/// only edges that are worth more texels, and at last none. A link is kept between neighbouring samples of refined
-/// texels whose facets' planes do not meet there. A caster's [mask](crate::Mask) is asked at every sample and at every slot of a link:
+/// the tolerance, within a budget of ten bytes per texel of the map, or 640 KB if that is more: beyond it, the tiles that take most first let samples share
+/// planes that are nearly their own, then
+/// refine only edges that matter by more texels, and finally none. A link is stored between neighbouring samples of refined
+/// texels whose facets' planes do not meet there. A caster's [mask](crate::Mask) is evaluated at every sample and at every slot of a link:
 /// its holes are edges like any others.
 ///
 /// [`DualPlane`]: https://docs.rs/umbrage-shadow
@@ -124,7 +125,7 @@ pub fn bake_refined<'a>(
     BakedFacets { map: Arc::new(map), stats: bins.stats() }
 }
 
-/// All tiles of a map, in parallel; `scratch` makes what one after the other may use.
+/// All tiles of a map, in parallel; `scratch` makes the buffers that consecutive tiles reuse.
 fn by_tile<S>(
     view: &View,
     scratch: impl Fn() -> S + Sync + Send,

@@ -7,7 +7,7 @@ use umbrage_depth::NO_FACET;
 use umbrage_plane::{Affine, TexelRect};
 use umbrage_raster::{Lines, Shown};
 
-/// 1/256 texel: what corners are snapped to, and all places here are multiples of.
+/// 1/256 texel: corners are snapped to multiples of it, as are all places here.
 pub(super) const SUBTEXELS: i32 = 256;
 
 /// A place of the map in texels, of one in 1/256 texel.
@@ -30,7 +30,7 @@ pub(super) fn points(along: &Range<i32>, first: i32, shift: u32, count: usize) -
     index(along.start)..index(along.end)
 }
 
-/// What a facet covers of a line, in 1/256 texel.
+/// The part of a line that a facet covers, in 1/256 texel.
 #[derive(Clone, Debug)]
 pub(super) struct Span {
     pub facet: u32,
@@ -39,7 +39,7 @@ pub(super) struct Span {
     pub along: Range<i32>,
 }
 
-/// What the facets that may be seen in a region cover of parallel lines over it, in the order of the triangles for each line.
+/// The parts of parallel lines over a region that the facets that may be seen in it cover, in the order of the triangles for each line.
 #[derive(Default)]
 pub(super) struct Spans {
     lines: Vec<Vec<Span>>,
@@ -79,7 +79,7 @@ impl Spans {
     }
 }
 
-/// The points of a square grid: where the first is and how far the next, in 1/256 texel, and how many make a side.
+/// The points of a square grid: the place of the first and the distance to the next, in 1/256 texel, and the number along a side.
 #[derive(Clone, Copy)]
 pub(super) struct Grid {
     pub first: IVec2,

@@ -14,7 +14,7 @@ use umbrage_raster::{BIN, Bins, Lines, Shown};
 const SIDE: usize = BIN as usize;
 const CELLS: usize = SIDE * SIDE;
 
-/// What is kept of a tile.
+/// What is stored of a tile.
 pub(super) struct Found {
     planes: Vec<Affine>,
     texels: Vec<u32>,
@@ -27,7 +27,7 @@ impl Found {
     }
 }
 
-/// Texels along a side of what is looked at together: where one facet is seen all over, nothing is sampled.
+/// Texels along a side of a part that is processed together: where one facet covers all of it, nothing is sampled.
 const PART: usize = 8;
 
 /// In a tile that more triangles reach, the keys of all samples begin at the tile's left side, not at that of each part.
@@ -36,7 +36,7 @@ const CROWDED: usize = 64;
 /// Parts along a tile's side.
 const PARTS: usize = SIDE / PART;
 
-/// What of a tile is looked for.
+/// What is computed of a tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Parts {
     /// Texels, and the samples and links of those that are refined.
@@ -45,7 +45,7 @@ pub(super) enum Parts {
     Texels,
 }
 
-/// What is written anew for each tile, and kept so that nothing is allocated for it.
+/// Buffers that are written anew for each tile, and kept so that nothing is allocated for it.
 #[derive(Default)]
 pub(super) struct Scratch {
     shown: Vec<Shown>,
@@ -56,7 +56,7 @@ pub(super) struct Scratch {
     samples: Vec<u32>,
 }
 
-/// What a refined map is made of.
+/// The inputs of a refined map.
 pub(super) struct Refined<'a> {
     pub view: &'a View,
     pub bins: &'a Bins,
@@ -183,7 +183,7 @@ struct Refine<'a> {
 }
 
 impl Refine<'_> {
-    /// Adds the blocks of those texels of a part that one plane does not do for.
+    /// Adds the blocks of those texels of a part for which one plane is not enough.
     #[inline(always)]
     fn part(&self, blocks: &mut Vec<FacetBlock>) {
         let (grid, fine, map) = (self.grid, self.fine, self.surface.view.size());

@@ -1,4 +1,4 @@
-/// How finely the texels of a [`bake_refined`](crate::bake_refined) map are kept where one plane does not do.
+/// How finely the texels of a [`bake_refined`](crate::bake_refined) map are stored where one plane is not enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Refinement {

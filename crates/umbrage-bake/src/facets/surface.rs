@@ -32,7 +32,7 @@ impl Surface<'_> {
         (own - found).abs() <= self.tolerance * width
     }
 
-    /// Whether two planes meet between two places: at both they are one, but for roundings.
+    /// Whether two planes meet between two places: they are equal at both, up to rounding.
     pub fn meet(&self, a: u32, b: u32, places: [DVec2; 2]) -> bool {
         let (a, b) = (self.plane(a), self.plane(b));
         let one = |at: DVec2| {

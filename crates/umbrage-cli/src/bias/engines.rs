@@ -17,7 +17,7 @@ pub struct Translated {
     /// Where it holds; `None` where no pixel is judged.
     at: Option<Conditions>,
     engines: Vec<(Engine, Result<Translation, String>)>,
-    /// Whether sources are printed, too.
+    /// Whether sources are printed as well.
     in_full: bool,
 }
 

@@ -12,7 +12,7 @@ pub struct Tried {
     pub most: f64,
     /// The smallest amount without false shadow, or the largest that was tried.
     pub amount: f64,
-    /// What it leaves wrong.
+    /// The faults that it leaves.
     pub shares: BiasShares,
 }
 
@@ -20,13 +20,13 @@ pub struct Tried {
 pub struct Found {
     /// Lit and shadowed pixels that were judged.
     pub pixels: [usize; 2],
-    /// What is wrong without a bias.
+    /// The faults without a bias.
     pub without: BiasShares,
     pub tried: [Tried; 3],
 }
 
 impl Found {
-    /// The kind to be had in engines: of those that work, the one with the least false light; otherwise the one that leaves the least wrong.
+    /// The kind to use in engines: of those that work, the one with the least false light; otherwise the one that leaves the fewest faults.
     pub fn chosen(&self) -> &Tried {
         let wrong = |tried: &Tried| (!tried.window.works(), tried.shares.false_light + tried.shares.false_shadow);
         let mut chosen = &self.tried[0];
@@ -90,7 +90,7 @@ fn percent(share: f64) -> String {
     format!("{:.2} %", 100.0 * share)
 }
 
-/// Three digits that count.
+/// Three significant digits.
 pub fn short(value: f64) -> String {
     let digits = if value == 0.0 { 0 } else { (2 - value.abs().log10().floor() as i32).clamp(0, 12) };
     format!("{value:.*}", digits as usize)

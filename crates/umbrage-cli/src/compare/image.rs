@@ -1,4 +1,4 @@
-//! A shadow image of one's own.
+//! A shadow image from another program.
 
 use crate::memory::Need;
 use crate::shell::Usage;
@@ -10,7 +10,7 @@ use umbrage_io::{file_bytes, read_values};
 /// The fraction in shadow of each pixel of an image, or with `invert` what it is the complement of.
 ///
 /// # Errors
-/// One line with the file: it cannot be read, has another size than truth, or pixels that are no numbers.
+/// One line with the file: it cannot be read, has another size than truth, or pixels that are not numbers.
 pub fn read(path: &Path, invert: bool, size: UVec2, need: &Need, max_memory: Option<u64>) -> anyhow::Result<Vec<f32>> {
     let shown = path.display();
     let need = Need { file_bytes: file_bytes(path)?, ..*need };
@@ -19,7 +19,7 @@ pub fn read(path: &Path, invert: bool, size: UVec2, need: &Need, max_memory: Opt
     if image.size != size {
         let [width, height] = image.size.to_array();
         return Err(Usage(format!(
-            "{shown}: the image has {width} x {height} pixels, truth has {} x {} (--size {width}x{height} makes them alike)",
+            "{shown}: the image has {width} x {height} pixels, truth has {} x {} (--size {width}x{height} makes them equal)",
             size.x, size.y
         ))
         .into());

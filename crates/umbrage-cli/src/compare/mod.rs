@@ -98,7 +98,7 @@ pub fn run(cli: &Cli, args: &CompareArgs, shell: &mut Shell<'_>) -> anyhow::Resu
         }
     }
     if !exceeded.is_empty() {
-        // What was found is printed all the same.
+        // The results are printed in any case.
         shell.out.flush()?;
         return Err(Exceeded(format!("--fail-above: {}", exceeded.join("; "))).into());
     }
@@ -109,7 +109,7 @@ pub fn run(cli: &Cli, args: &CompareArgs, shell: &mut Shell<'_>) -> anyhow::Resu
 fn recipes(args: &CompareArgs) -> anyhow::Result<Vec<(Recipe, u32)>> {
     let mut all = Vec::new();
     if args.recipe.is_empty() && args.against.is_none() {
-        // The control is nobody's advice.
+        // The control is not a method that anybody recommends.
         let presets = PresetName::ALL.into_iter().filter(|preset| *preset != PresetName::Ordinary);
         all.extend(presets.flat_map(|preset| args.map_size.iter().map(move |size| (Recipe::from(preset), *size))));
     }
@@ -118,7 +118,7 @@ fn recipes(args: &CompareArgs) -> anyhow::Result<Vec<(Recipe, u32)>> {
             all.push((stage::recipe(text, *size)?, *size));
         }
     }
-    // Twice the same says nothing new.
+    // A repeated recipe gives nothing new.
     let mut once: Vec<(Recipe, u32)> = Vec::new();
     for one in all {
         if !once.contains(&one) {
@@ -189,7 +189,7 @@ impl Plan<'_> {
         Ok((rows, truth))
     }
 
-    /// A row without its pictures where nobody looks at them.
+    /// A row without its pictures where they are not shown.
     fn kept(&self, mut row: Row) -> Row {
         if self.args.output.is_none() {
             row.shadow = Vec::new();
@@ -207,7 +207,7 @@ impl Plan<'_> {
         area: Option<f64>,
         judge: &Judge<'_>,
     ) -> anyhow::Result<Row> {
-        // Filters that know no size of a light are judged as they are.
+        // Filters without a field for the light's size are judged as they are.
         let knows = Field::of(recipe.preset()).any(|field| field.name == "light");
         let recipe = shadow::recipe(recipe, area.filter(|_| knows), WindowArg::File)?;
         let start = Instant::now();

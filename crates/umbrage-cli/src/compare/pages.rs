@@ -17,7 +17,7 @@ pub struct Truth {
     pub judged: Vec<bool>,
 }
 
-/// Writes the page and all that it shows into a folder, and returns the names of the files that people look at.
+/// Writes the page and all that it shows into a folder, and returns the names of the files to look at.
 ///
 /// # Errors
 /// A file that cannot be written.
@@ -33,7 +33,7 @@ pub fn write(
     let words = Words {
         title: format!("Umbrage: {scene}"),
         heading: format!("Shadows of {scene}"),
-        lead: "Each result beside ray-traced truth, and every fault by name.".into(),
+        lead: "Each result is compared with ray-traced truth, and every fault is named.".into(),
         questions: Vec::new(),
     };
     let report = show(out, &words, &figures)?;
@@ -82,7 +82,7 @@ fn figure(scene: &str, size: UVec2, truth: &Truth, rows: &[Row], limits: Option<
             faults = faults.with(name, format!("{share}, {colour}"));
         }
         let differences = row.shadow.iter().zip(&truth.shadow).map(|(own, truth)| heat(own - truth)).collect();
-        let error = Panel::rgb(&format!("{name} error"), &format!("{caption}: less truth"), size, differences);
+        let error = Panel::rgb(&format!("{name} error"), &format!("{caption}: minus truth"), size, differences);
         let error = error.role(Role::Error).with("too dark", "orange").with("too light", "blue");
         made.panels.extend([result, faults, error]);
         made.measures.extend(limits.into_iter().flat_map(|limits| limits.of(row)).map(|limited| {
@@ -98,13 +98,13 @@ fn figure(scene: &str, size: UVec2, truth: &Truth, rows: &[Row], limits: Option<
     made.tables.push(Table { name: "faults".into(), head, rows });
     let (head, rows) = table::further(own.iter().copied());
     made.tables.push(Table { name: "further".into(), head, rows });
-    made.note = "Shares are of the judged pixels: those that see one surface, inside the light's map and its cone, which it faces. What is not judged is darker \
-                 in the maps of faults."
+    made.note = "Percentages are of the judged pixels: those that see one surface, inside the light's map and its cone, that faces the light. Pixels that are \
+                 not judged are darker in the maps of faults."
         .into();
     (heading, made)
 }
 
-/// A shadow as one looks at it: light where lit.
+/// A shadow as it is displayed: light where lit.
 fn shadow(name: &str, caption: &str, size: UVec2, shadow: &[f32]) -> Panel {
     Panel::grey(name, caption, size, shadow.iter().map(|shadow| 1.0 - shadow).collect())
 }

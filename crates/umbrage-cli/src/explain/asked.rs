@@ -1,4 +1,4 @@
-//! The regions of a pixel that a shadow is asked about.
+//! The regions of a pixel whose shadow is looked up.
 
 use anyhow::anyhow;
 use glam::{DVec4, Vec3};
@@ -8,7 +8,7 @@ use umbrage_plane::SurfacePoint;
 use umbrage_sample::Key;
 use umbrage_shadow::Shadow;
 
-/// One region, the key it was asked with, and the answer.
+/// One region, the key of its look-up, and the result.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked {
     pub point: SurfacePoint,
@@ -16,7 +16,7 @@ pub struct Asked {
     pub fraction: f32,
 }
 
-/// A shadow that remembers what it is asked.
+/// A shadow that records its look-ups.
 pub struct Recorder<'a> {
     shadow: &'a dyn Shadow,
     asked: Mutex<Vec<Asked>>,
@@ -27,7 +27,7 @@ impl<'a> Recorder<'a> {
         Self { shadow, asked: Mutex::new(Vec::new()) }
     }
 
-    /// What was asked, in the order of the surfaces.
+    /// The look-ups, in the order of the surfaces.
     pub fn asked(self) -> anyhow::Result<Vec<Asked>> {
         self.asked.into_inner().map_err(|_| anyhow!("a worker stopped"))
     }
@@ -55,7 +55,7 @@ pub fn blockers(geometry: &Geometry, point: &SurfacePoint, light: DVec4) -> Vec<
         let way = light.truncate() / light.w - point.position;
         (way, way.length())
     };
-    // Closer than this two surfaces are one.
+    // Two surfaces closer than this are one.
     let least = 1e-6 * point.position.distance(geometry.origin()).max(1e-3);
     let hits = geometry.hits(point.position, way).into_iter();
     hits.filter(|hit| hit.t > least && hit.t < reach).map(|hit| (hit.object, hit.t)).collect()

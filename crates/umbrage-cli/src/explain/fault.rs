@@ -4,7 +4,7 @@ use std::fmt;
 use umbrage_plane::Receiver;
 use umbrage_shadow::Explanation;
 
-/// Below and above this truth counts as lit and as dark.
+/// Truth below this counts as lit, truth above it as dark.
 const LIT: f32 = 0.05;
 const DARK: f32 = 0.95;
 
@@ -66,7 +66,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// What a fault is named by.
+/// The evidence by which a fault is named.
 #[derive(Clone, Copy, Debug)]
 pub struct Answers {
     fraction: f32,
@@ -78,7 +78,7 @@ pub struct Answers {
 }
 
 impl Answers {
-    /// A region's answer and its truth, the maps that were asked, and the distance to what blocks the light by rays.
+    /// A region's result and its truth, the maps that were looked up, and the distance to what blocks the light by rays.
     pub fn new<'a>(fraction: f32, truth: f32, maps: impl Iterator<Item = &'a Explanation>, gap: Option<f64>) -> Self {
         let nearest = maps.filter_map(|explanation| Some((explanation.receiver?, nearer(explanation))));
         let nearest = nearest.reduce(|known, other| if other.1 > known.1 { other } else { known });

@@ -50,7 +50,7 @@ pub fn run(cli: &Cli, args: &ExplainArgs, shell: &mut Shell<'_>) -> anyhow::Resu
             let words = light.explained(at)?;
             if let Some(path) = &args.output {
                 let drawn = words.regions.first().context("-o: the pixel sees nothing")?.drawn();
-                write_bytes(path, drawn.context("-o: no texel was asked")?.as_bytes())?;
+                write_bytes(path, drawn.context("-o: no texel was read")?.as_bytes())?;
             }
             if cli.json {
                 all.push(words.json());
@@ -71,7 +71,7 @@ pub struct Lit<'a> {
     lamp: &'a Lamp,
     recipe: Recipe,
     shadow: &'a dyn Shadow,
-    /// The same without a bias, once it is wanted; `None` for a recipe that has none.
+    /// The same without a bias, made when it is needed; `None` for a recipe that has no bias.
     unbiased: OnceCell<Option<Box<dyn Shadow>>>,
     frame: Frame,
     geometry: &'a Geometry,
@@ -90,7 +90,7 @@ impl<'a> Lit<'a> {
         Self { stage, lamp, recipe: *recipe, shadow, unbiased: OnceCell::new(), frame, geometry }
     }
 
-    /// All that is to say of a pixel inside the picture.
+    /// The explanation of a pixel inside the picture.
     ///
     /// # Errors
     /// A recipe that cannot be used without its bias.
@@ -140,7 +140,7 @@ impl<'a> Lit<'a> {
         Ok(region)
     }
 
-    /// What the same recipe answers without a bias.
+    /// The result of the same recipe without a bias.
     fn without_bias(&self, asked: &Asked) -> anyhow::Result<Option<f32>> {
         if self.unbiased.get().is_none() {
             let recipe = self.recipe.unbiased();

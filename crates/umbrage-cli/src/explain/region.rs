@@ -1,4 +1,4 @@
-//! A surface that a pixel sees, and all that is known of its shadow.
+//! A surface that a pixel sees, and everything known about its shadow.
 
 use super::asked::Asked;
 use super::fault::{Answers, Fault};
@@ -11,11 +11,11 @@ pub struct Region {
     pub asked: Asked,
     /// Its object's name.
     pub object: String,
-    /// The filter's answer.
+    /// The filter's result.
     pub fraction: f32,
-    /// What was asked of each map.
+    /// The look-up of each map.
     pub maps: Vec<(Explanation, Owners)>,
-    /// What stands between its point and the light by rays, nearest to the point first: the object's name and the distance, world units.
+    /// What lies between its point and the light by rays, nearest to the point first: the object's name and the distance, world units.
     pub blockers: Vec<(String, f64)>,
     /// The truth of its point, 0 lit to 1 dark.
     pub truth: f32,
@@ -24,12 +24,12 @@ pub struct Region {
 }
 
 impl Region {
-    /// The texels of the first map that was asked; `None` where none was.
+    /// The texels of the first map that was looked up; `None` where none was.
     pub fn drawn(&self) -> Option<String> {
         self.maps.iter().find_map(|(explanation, owners)| svg::drawn(explanation, owners))
     }
 
-    /// What its fault is named by.
+    /// The evidence by which its fault is named.
     pub fn answers(&self) -> Answers {
         let maps = self.maps.iter().map(|(explanation, _)| explanation);
         Answers::new(self.fraction, self.truth, maps, self.blockers.first().map(|(_, distance)| *distance))

@@ -1,4 +1,4 @@
-//! The texels around a receiver, with its footprint and the places that were asked about.
+//! The texels around a receiver, with its footprint and the places that were looked up.
 
 use super::owners::Owners;
 use glam::{IVec2, Vec2};
@@ -12,7 +12,7 @@ const BORDER: f32 = 24.0;
 /// Most texels across.
 const MOST: i32 = 33;
 
-/// The texels that were asked, and one around them; `None` where none was.
+/// The texels that were read, and one around them; `None` where none was.
 pub fn window(explanation: &Explanation) -> Option<TexelRect> {
     let taps = explanation.questions.iter().flat_map(|question| &question.taps).map(|tap| tap.at);
     let places = explanation.places.iter().map(|place| place.at.as_vec2());
@@ -81,7 +81,8 @@ pub fn drawn(explanation: &Explanation, owners: &Owners) -> Option<String> {
         "<path d=\"M{0:.1} {1:.1}m-8 0h16m-8 -8v16\" stroke=\"#c0271d\" stroke-width=\"2\" fill=\"none\"/>",
         at.x, at.y
     );
-    let legend = "Blue texels see the receiver's own object, orange ones another; the blue outline is the region, the cross its point, dots are taps: black ones dark, yellow ones lit.";
+    let legend = "Blue texels see the receiver's own object, orange ones another; the blue outline is the region, the cross its point, dots are taps: black \
+        ones dark, yellow ones lit.";
     let width = size.x.max(640.0);
     let height = size.y + 48.0;
     let mut text = String::new();
@@ -98,7 +99,7 @@ pub fn drawn(explanation: &Explanation, owners: &Owners) -> Option<String> {
     ))
 }
 
-/// The depth that each texel stores that was asked, once.
+/// The depth that each texel that was read stores, once.
 fn stored(explanation: &Explanation) -> Vec<(IVec2, String)> {
     let mut known: Vec<(IVec2, String)> = Vec::new();
     for tap in explanation.questions.iter().flat_map(|question| &question.taps) {
@@ -112,7 +113,7 @@ fn stored(explanation: &Explanation) -> Vec<(IVec2, String)> {
     known
 }
 
-/// Lines of at most so many characters.
+/// Lines of at most this many characters.
 fn wrapped(text: &str, most: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split(' ') {

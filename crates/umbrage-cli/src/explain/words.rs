@@ -8,10 +8,10 @@ use serde_json::{Value, json};
 use std::fmt;
 use umbrage_shadow::{Crossing, Explanation, PlaceJudged, Question, TapJudged, Vote};
 
-/// Answers that differ by no more than this agree.
+/// Results that differ by no more than this agree.
 const NEAR: f32 = 0.05;
 
-/// All that is to say of a pixel under a light.
+/// The explanation of a pixel under a light.
 pub struct Words<'a> {
     /// Column and row.
     pub at: [u32; 2],
@@ -97,7 +97,7 @@ impl fmt::Display for Region {
     }
 }
 
-/// Every tap of every question that was asked of a map.
+/// Every tap of every look-up of a map.
 fn map(f: &mut fmt::Formatter<'_>, explanation: &Explanation, owners: &Owners) -> fmt::Result {
     let size = explanation.view.size();
     match &explanation.receiver {

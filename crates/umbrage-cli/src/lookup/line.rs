@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 use std::fmt;
 use umbrage_plane::SurfacePoint;
 
-/// What the numbers of a line are called.
+/// The names of the numbers of a line.
 const FIELDS: [&str; 12] = ["x", "y", "z", "nx", "ny", "nz", "ux", "uy", "uz", "vx", "vy", "vz"];
 
 /// Why a line is not a point.
@@ -35,7 +35,7 @@ pub fn is_header(line: &str) -> bool {
     })
 }
 
-/// The point of a line, whose randomness is that of a region; `None` of a line without anything.
+/// The point of a line, whose randomness is that of a region; `None` for an empty line.
 pub fn point(line: &str, region: u32) -> Result<Option<SurfacePoint>, Fault> {
     let mut numbers = [0.0; 12];
     let mut count = 0;

@@ -18,7 +18,7 @@ use umbrage_shadow::{Bounded, Shadow};
 /// Points that are looked up together; their number changes no result.
 const BATCH: usize = 4096;
 
-/// Most bytes of a line: twelve numbers of any length that makes sense.
+/// Most bytes of a line: room for twelve numbers of any sensible length.
 const MOST_LINE: u64 = 4096;
 
 pub fn run(cli: &Cli, args: &LookupArgs, shell: &mut Shell<'_>) -> anyhow::Result<()> {
@@ -69,7 +69,7 @@ pub fn run(cli: &Cli, args: &LookupArgs, shell: &mut Shell<'_>) -> anyhow::Resul
     batch.finish(shell)
 }
 
-/// The algorithm over the maps of a light, and over the cone that it has beside them.
+/// The algorithm over the maps of a light, within the cone of the light as a whole.
 fn over(recipe: &Recipe, maps: Vec<NamedMap>) -> anyhow::Result<Box<dyn Shadow>> {
     let (view, cone) = (*maps[0].map.view(), maps[0].light_cone.filter(|_| maps.len() > 1));
     let maps = maps.into_iter().map(|named| named.map).collect();
@@ -97,7 +97,7 @@ fn own(map: &Map) -> (Recipe, &'static str) {
     }
 }
 
-/// Lines that wait for their answers.
+/// Lines that wait for their results.
 struct Batch<'a> {
     shadow: &'a dyn Shadow,
     key: Key,
@@ -112,7 +112,7 @@ impl Batch<'_> {
         self.points.extend(point);
     }
 
-    /// Writes the answers of all lines.
+    /// Writes the results of all lines.
     fn finish(&mut self, shell: &mut Shell<'_>) -> anyhow::Result<()> {
         let mut fractions = vec![0.0; self.points.len()];
         self.shadow.fractions(&self.points, self.key, &mut fractions);

@@ -6,10 +6,10 @@ use super::row::{NUMBERS, Number, Row};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limits(Vec<(usize, f64)>);
 
-/// Reads `NAME=NUMBER,..`; the number of a share may stand in per cent, with `%` behind it.
+/// Reads `NAME=NUMBER,..`; the number of a fraction may be given in per cent, with `%` after it.
 ///
 /// # Errors
-/// What is expected, for a name that is not known, or a number that is none.
+/// What is expected, for a name that is not known, or a text that is not a number.
 pub fn limits(text: &str) -> Result<Limits, String> {
     let names = || NUMBERS.iter().map(|number| number.name).collect::<Vec<_>>().join(", ");
     let limit = |part: &str| {
@@ -19,7 +19,7 @@ pub fn limits(text: &str) -> Result<Limits, String> {
         let at = at.ok_or_else(|| format!("{name:?} is not known: expected {}", names()))?;
         let (digits, scale) = match value.strip_suffix('%') {
             Some(_) if !NUMBERS[at].is_share => {
-                return Err(format!("{name} is no share: {value} cannot be in per cent"));
+                return Err(format!("{name} is not a fraction: {value} cannot be in per cent"));
             }
             Some(digits) => (digits.trim(), 100.0),
             None => (value, 1.0),
@@ -51,7 +51,7 @@ impl Limited {
 }
 
 impl Limits {
-    /// The numbers of a row that have limits. What a row does not have, or nothing could be measured by, exceeds none.
+    /// The numbers of a row that have limits. Numbers that a row does not have, or that could not be measured, exceed none.
     pub fn of<'a>(&'a self, row: &'a Row) -> impl Iterator<Item = Limited> + 'a {
         self.0.iter().filter_map(|&(at, most)| {
             let number = &NUMBERS[at];

@@ -1,10 +1,10 @@
-//! What is compared with truth, and the numbers that it gets.
+//! What is compared with truth, and its numbers.
 
 use glam::DVec2;
 use serde_json::{Map, Value, json};
 use umbrage_oracle::judge::Score;
 
-/// A result beside truth.
+/// A result that is compared with truth.
 pub struct Row {
     /// Of which light.
     pub light: String,
@@ -13,11 +13,11 @@ pub struct Row {
     /// How it was made; `None` for an image.
     pub made: Option<Made>,
     pub score: Score,
-    /// The fraction in shadow; empty where nobody looks at it.
+    /// The fraction in shadow; empty where it is not shown.
     pub shadow: Vec<f32>,
 }
 
-/// What a recipe's result took.
+/// The time and memory that a recipe's result took.
 pub struct Made {
     pub map_size: u32,
     /// Bytes of its maps.
@@ -32,7 +32,7 @@ pub struct Number {
     pub name: &'static str,
     /// Its head in tables.
     pub head: &'static str,
-    /// Whether it is a share, which people read in per cent.
+    /// Whether it is a fraction, which is shown in per cent.
     pub is_share: bool,
     pub of: fn(&Row) -> Option<f64>,
 }
@@ -68,7 +68,7 @@ const fn number(name: &'static str, head: &'static str, is_share: bool, of: fn(&
 }
 
 impl Row {
-    /// What it is called in messages.
+    /// Its name in messages.
     pub fn name(&self) -> String {
         match &self.made {
             Some(made) => format!("{} at {} texels under {:?}", self.what, made.map_size, self.light),
@@ -87,7 +87,7 @@ impl Row {
             row.insert("bytes".into(), json!(made.bytes));
         }
         row.insert("judged-pixels".into(), json!(self.score.judged));
-        // What an image cannot have is left out; what could not be measured is null.
+        // Numbers that an image cannot have are left out; those that could not be measured are null.
         for number in NUMBERS.iter().filter(|number| made.is_some() || !number.needs_recipe()) {
             row.insert(number.name.into(), json!((number.of)(self)));
         }
@@ -101,13 +101,13 @@ impl Number {
         ["detachment", "leak", "detached", "detached-texels", "noise", "bake-ms", "look-up-ns"].contains(&self.name)
     }
 
-    /// The number with its per cent where it is a share.
+    /// The number, in per cent where it is a fraction.
     pub fn text(&self, value: f64) -> String {
         if self.is_share { format!("{}%", rounded(100.0 * value)) } else { rounded(value) }
     }
 }
 
-/// Four digits behind the point at most, more for what would be nothing with them.
+/// At most four decimals, more for numbers that would otherwise round to 0.
 pub fn rounded(value: f64) -> String {
     if value != 0.0 && value.abs() < 1e-3 { format!("{value:.2e}") } else { format!("{}", (value * 1e4).round() / 1e4) }
 }

@@ -1,4 +1,4 @@
-//! The scene as the command line has it, and what a state of the page makes of it.
+//! The scene as given on the command line, and how a state of the page changes it.
 
 use crate::args::{Cli, SceneArgs, ViewArgs};
 use crate::lights::{self, Lamp};
@@ -20,15 +20,15 @@ use umbrage_view::{Show, State};
 /// Most columns and rows of a picture that is drawn while something moves.
 const DRAFT: u32 = 256;
 
-/// What does not change while the page is there.
+/// What does not change while the page is open.
 pub struct Base {
     pub source: String,
-    /// The options of the command line, but for the recipe, the lights and their turns, which the page changes.
+    /// The options of the command line, except the recipe, the lights and their turns, which the page changes.
     pub args: SceneArgs,
     pub samples: u32,
     pub seed: u32,
     pub max_memory: Option<u64>,
-    /// The state that the command line asks for.
+    /// The state that the command line gives.
     pub first: State,
     pub camera: View,
     pub lights: Vec<Light>,
@@ -36,7 +36,7 @@ pub struct Base {
     need: Need,
 }
 
-/// A state that makes sense.
+/// A valid state.
 pub struct Setting {
     pub show: Show,
     pub recipe: Option<Recipe>,
@@ -49,7 +49,7 @@ pub struct Setting {
 }
 
 impl Base {
-    /// What a command line asks for, over its scene as it stands before any light is turned.
+    /// What a command line gives, over its scene before any light is turned.
     pub fn new(cli: &Cli, args: &ViewArgs, stage: &Stage) -> anyhow::Result<Self> {
         let recipe = args.scene.recipe.as_deref().map(|text| stage::recipe(text, args.scene.map_size)).transpose()?;
         let first = State {
@@ -78,7 +78,7 @@ impl Base {
     /// Reads a state.
     ///
     /// # Errors
-    /// One line that names what makes no sense.
+    /// One line that names what is invalid.
     pub fn setting(&self, state: &State) -> anyhow::Result<Setting> {
         let map_size = state.map_size.unwrap_or(self.args.map_size);
         let recipe = state.recipe.as_deref().map(|text| stage::recipe_text(text, map_size)).transpose()?;
@@ -115,7 +115,7 @@ impl Base {
     /// Makes a stage show a setting: its objects are those of the command line's scene, all else is made anew.
     ///
     /// # Errors
-    /// One line that names what cannot be had.
+    /// One line that names what is impossible.
     pub fn set(&self, stage: &mut Stage, setting: &Setting, draft: bool) -> anyhow::Result<()> {
         let mut lamps = self.lamps.clone();
         stage.scene.lights.clone_from(&self.lights);
@@ -172,7 +172,7 @@ pub fn one<'a>(scene: &Scene, lamps: &'a [Lamp]) -> anyhow::Result<&'a Lamp> {
     }
 }
 
-/// A size of the same shape that is drawn fast.
+/// A size of the same proportions that is drawn fast.
 fn small(size: UVec2) -> UVec2 {
     let most = size.max_element();
     if most <= DRAFT {

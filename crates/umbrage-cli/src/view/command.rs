@@ -7,7 +7,7 @@ use crate::stage::GALLERY;
 use std::path::Path;
 use umbrage_view::Show;
 
-/// Each with what it draws.
+/// Command lines, each with a description of what it draws.
 pub fn lines(base: &Base, setting: &Setting) -> Vec<(&'static str, String)> {
     let mut all = Vec::new();
     let name = match base.source.strip_prefix(GALLERY) {
@@ -28,7 +28,7 @@ pub fn lines(base: &Base, setting: &Setting) -> Vec<(&'static str, String)> {
         Show::Picture => render(&mut add, false),
         Show::Truth => render(&mut add, true),
         Show::Shadow => add("the fraction in shadow", "shadow", &["--samples", &samples, "-o", "shadows"]),
-        _ => add("faults beside truth", "compare", &["--samples", &samples, "-o", "compared"]),
+        _ => add("faults against truth", "compare", &["--samples", &samples, "-o", "compared"]),
     }
     if setting.wipe {
         match setting.show {
@@ -49,7 +49,7 @@ pub fn lines(base: &Base, setting: &Setting) -> Vec<(&'static str, String)> {
 fn line(base: &Base, setting: &Setting, command: &str, rest: &[&str]) -> String {
     let args = &base.args;
     let mut words: Vec<String> = vec!["umbrage".into(), command.into()];
-    // What begins as an option does would be taken for one.
+    // A name that begins like an option would be taken for one.
     words.push(if base.source.starts_with('-') { format!("./{}", base.source) } else { base.source.clone() });
     let mut option =
         |name: &str, value: Option<String>| words.extend(value.into_iter().flat_map(|value| [name.into(), value]));

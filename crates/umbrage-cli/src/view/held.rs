@@ -1,4 +1,4 @@
-//! The scene that is drawn, and what was made of it.
+//! The scene that is drawn, and what was made from it.
 
 use super::base::{Base, Setting, one};
 use super::truths::{Judged, JudgedKey, Kept, TruthKey, Truths, Until};
@@ -24,7 +24,7 @@ const MOST: usize = 3;
 struct ShadowKey {
     light: View,
     recipe: Recipe,
-    /// Maps that are laid about what the camera sees.
+    /// Maps that are fitted to what the camera sees.
     camera: Option<View>,
 }
 
@@ -66,7 +66,7 @@ impl Held {
         Self { stage, geometry: None, shadows: Kept::new(), truths: Truths::new(), judged: Kept::new() }
     }
 
-    /// What rays are cast at: it is made once, since objects and camera stay.
+    /// The geometry that rays are cast at: it is made once, since objects and camera do not change.
     pub fn geometry(&mut self, base: &Base) -> Arc<Geometry> {
         let scene = &self.stage.scene;
         Arc::clone(self.geometry.get_or_insert_with(|| Arc::new(Geometry::new(scene, &base.camera))))
@@ -128,7 +128,7 @@ impl Held {
         })
     }
 
-    /// One light's shadow beside truth, as `umbrage compare` judges it.
+    /// One light's shadow against truth, as `umbrage compare` judges it.
     pub fn judged(&mut self, base: &Base, setting: &Setting, stop: &Stop) -> Result<Arc<Judged>, Fault> {
         let frame = base.frame(setting, false);
         let lamp = one(&self.stage.scene, &self.stage.lamps)?.clone();

@@ -25,9 +25,9 @@ pub fn run(cli: &Cli, args: &ViewArgs, shell: &mut Shell<'_>) -> anyhow::Result<
     } else {
         writeln!(shell.out, "{address}")?;
     }
-    // The address is wanted now, not once the command has ended.
+    // The address is needed now, not once the command has ended.
     shell.out.flush()?;
-    shell.note("the page is there while this runs; Ctrl-C ends it");
+    shell.note("the page is available while this runs; Ctrl-C ends it");
     if args.open
         && let Err(problem) = open::in_browser(&address)
     {

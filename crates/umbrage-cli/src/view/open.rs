@@ -2,7 +2,7 @@
 
 use std::process::{Command, Stdio};
 
-/// The program that opens an address, and what it is given before that.
+/// The program that opens an address, and its arguments before the address.
 const OPENER: (&str, &[&str]) = if cfg!(target_os = "macos") {
     ("open", &[])
 } else if cfg!(target_os = "windows") {

@@ -1,4 +1,4 @@
-//! Pictures by rays, and what they say of recipes, kept for as long as they may be asked for again.
+//! Pictures by rays, and their judgements of recipes, kept for as long as they may be needed again.
 
 use glam::UVec2;
 use umbrage_oracle::judge::Score;
@@ -34,10 +34,10 @@ impl TruthKey {
     }
 }
 
-/// What a judgement depends on beside its truth.
+/// What a judgement depends on besides its truth.
 pub type JudgedKey = (TruthKey, Recipe, u32);
 
-/// A recipe's shadow beside truth.
+/// A recipe's shadow compared with truth.
 pub struct Judged {
     pub score: Score,
     pub pixels: Vec<bool>,
@@ -54,7 +54,7 @@ impl<K: PartialEq, T> Kept<K, T> {
         Self(Vec::new())
     }
 
-    /// What was kept under a key, or what is made for it; of `most` others the oldest goes.
+    /// What was kept under a key, or what is made for it; of `most` others the oldest is dropped.
     ///
     /// # Errors
     /// What `make` returned.
@@ -81,7 +81,7 @@ impl Truths {
     }
 }
 
-/// A shadow that answers nothing any more once nobody waits.
+/// A shadow that does no more work once nobody waits for it.
 pub struct Until<'a> {
     pub shadow: &'a dyn Shadow,
     pub stop: &'a Stop,

@@ -28,20 +28,20 @@ impl Viewer {
     /// Reads the scene, once.
     ///
     /// # Errors
-    /// One line that says what is wrong with the scene or with what was asked of it.
+    /// One line that names what is wrong with the scene or with the options.
     pub fn new(cli: &Cli, args: &ViewArgs, shell: &mut Shell<'_>) -> anyhow::Result<Self> {
         // The page turns lights from where the scene has them, and changes recipes.
         let plain = SceneArgs { recipe: None, turn_light: Vec::new(), ..args.scene.clone() };
         let stage = Stage::new(&args.source, &plain, cli.max_memory, args.samples, shell)?;
         let base = Base::new(cli, args, &stage)?;
         let viewer = Self { base, held: Mutex::new(Held::new(stage)) };
-        // What the command line asks for is checked before anybody opens the page.
+        // The command line is checked before anybody opens the page.
         let first = viewer.base.setting(&viewer.base.first)?;
         viewer.base.set(&mut viewer.held().stage, &first, false)?;
         Ok(viewer)
     }
 
-    /// Nothing of it is trusted to be as the last picture left it.
+    /// Usable even after a panic: no picture relies on the state that the last one left.
     fn held(&self) -> MutexGuard<'_, Held> {
         self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -50,7 +50,7 @@ impl Viewer {
         let base = &self.base;
         let setting = base.setting(&ask.state)?;
         let mut held = self.held();
-        // Whoever waited for the scene may have gone meanwhile.
+        // The request that waited for the scene may have been dropped meanwhile.
         stop.check().map_err(|_| Fault::Stopped)?;
         let start = Instant::now();
         base.set(&mut held.stage, &setting, ask.draft)?;
@@ -63,7 +63,7 @@ impl Viewer {
             Show::Picture | Show::Truth if by_rays => encode_png(size, &held.truth(base, true, &frame, stop)?.colour),
             Show::Picture | Show::Truth => encode_png(size, &held.lit(&frame, stop)?.colour),
             _ if by_rays => of_light(&held.truth(base, false, &frame, stop)?.shadow[0]),
-            // What takes long is not judged while it moves.
+            // Slow judgements are left out while something moves.
             show if show == Show::Shadow || ask.draft => of_light(&held.dark(&frame, stop)?.shadow[0]),
             show => {
                 let judged = held.judged(base, &setting, stop)?;
@@ -164,7 +164,7 @@ fn coloured(show: Show, judged: &Judged) -> Vec<Vec3> {
     }
 }
 
-/// The shares of the faults, in words for people.
+/// The percentages of the faults, as text for people.
 fn numbers(judged: &Judged) -> Map<String, Value> {
     let score = &judged.score;
     let share = |share: Option<f64>| share.map(|share| format!("{}%", rounded(100.0 * share)));

@@ -196,7 +196,7 @@ fn lists_are_complete() {
     let recipes = good(&["recipes"]).out;
     assert!(recipes.starts_with("auto "), "{recipes}");
     // Engines stand under a heading of their own.
-    let (papers, engines) = recipes.split_once("\n\nWhat engines do by default").expect("a heading");
+    let (papers, engines) = recipes.split_once("\n\nEngines' defaults").expect("a heading");
     assert_eq!((papers.lines().count(), engines.lines().count()), (14, 1 + 10), "{recipes}");
     assert!(engines.lines().nth(1).is_some_and(|line| line.starts_with("three-pcf ")), "{recipes}");
     let woo = good(&["recipes", "woo92"]).out;

@@ -114,7 +114,7 @@ fn an_image_is_of_one_light_and_of_the_size_of_the_pictures() {
 
     let error =
         refused(2, &["compare", "gallery:three-lights", "--light", "red", "--against", text(&red), "--size", "41x30"]);
-    let wanted = "the image has 40 x 30 pixels, truth has 41 x 30 (--size 40x30 makes them alike)";
+    let wanted = "the image has 40 x 30 pixels, truth has 41 x 30 (--size 40x30 makes them equal)";
     assert_eq!(error, format!("error: {}: {wanted}", text(&red)));
 
     let broken = red.with_file_name("broken.png");
@@ -145,7 +145,7 @@ fn what_is_above_a_limit_fails() {
     for (limits, problem) in [
         ("shade=1", "\"shade\" is not known: expected rms, false-shadow, false-light, acne, detachment, leak, "),
         ("rms", "expected NAME=NUMBER, as in rms=0.02,acne=0.1%"),
-        ("rms=1%", "rms is no share: 1% cannot be in per cent"),
+        ("rms=1%", "rms is not a fraction: 1% cannot be in per cent"),
         ("rms=much", "rms is \"much\": expected a finite number"),
         ("rms=1,rms=2", "rms is given twice"),
     ] {

@@ -27,7 +27,7 @@ pub const I75: Figure = Figure {
     id: "B06-I75",
     paper: Paper::Burley06,
     title: "A disc and a cone of samples",
-    claim: "Even a large constant bias lets a disc pierce the surface; a cone needs none up to the tilt of its side.",
+    claim: "Even under a large constant bias a disc of samples pierces the surface; a cone needs no bias up to the tilt of its side.",
     look: "the side of the disc that reaches into the surface, and the cone that leans away from it.",
     make: cone,
 };
@@ -37,7 +37,7 @@ struct Slope {
     view: View,
     map: Arc<Tiled>,
     points: Vec<SurfacePoint>,
-    /// Depth from texel to texel.
+    /// The change of depth from texel to texel.
     step: f64,
     texel: f64,
 }
@@ -167,7 +167,8 @@ fn cone(cx: &Context) -> anyhow::Result<Made> {
         ),
         Measure::info("constant bias that is needed at 75°", needed[needed.len() - 1].1, "texels"),
     ];
-    let mut sweep = Plot::new("Radius 8 texels", Axis::linear("tilt, degrees"), Axis::linear("share in false shadow"));
+    let mut sweep =
+        Plot::new("Radius 8 texels", Axis::linear("tilt, degrees"), Axis::linear("fraction in false shadow"));
     for (name, line) in SWEPT.iter().zip(shares) {
         sweep = sweep.add(Series::line(name, line));
     }
@@ -183,10 +184,10 @@ fn cone(cx: &Context) -> anyhow::Result<Made> {
     contacts(cx, &mut made)?;
     pictures(cx, &mut made)?;
     made.note = "The cone's price: an occluder counts only where it is nearer to the light than slope times the \
-    tap's distance from the receiver. Of a surface that covers the whole disc at height h above the receiver \
-    only the share (h / (slope · radius))² is seen: at large radii the outer taps miss what stands close, and \
-    contacts would fade. A radius that shrinks toward contacts (Image 76) avoids it. A constant bias as safe \
-    sees nothing at all below it."
+    tap's distance from the receiver. Of a surface that covers the whole disc at height h above the \
+    receiver, only the fraction (h / (slope · radius))² counts: at large radii the outer taps miss what stands close by, \
+    and contact shadows would fade. A radius that shrinks toward contacts (Image 76) avoids it. A constant bias that is \
+    as safe misses everything closer than itself."
         .into();
     Ok(made)
 }
@@ -231,21 +232,21 @@ fn schematic(slope: &Slope) -> String {
     .named(Mark::Line(2.0), Ink::Series(3), &line(large), "disc with the bias of D-9")
     .named(Mark::Line(2.0), Ink::Series(0), &cone, "cone of slope 2, no bias")
     .draw(Mark::Dots(4.5), Ink::Plain, &[DVec2::ZERO])
-    .key(Mark::Dots(4.5), Ink::Plain, "the shading point")
+    .key(Mark::Dots(4.5), Ink::Plain, "the shaded point")
     .svg()
 }
 
-/// What is expected of a height.
+/// The expected fraction at a height.
 type Law<'a> = &'a dyn Fn(f64) -> f64;
 
-/// How much of an occluder close above a level receiver is seen at all.
+/// The fraction of an occluder close above a level receiver that counts at all.
 fn contacts(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
     let level = Slope::new(cx, 0.0)?;
     let radius = RADIUS * level.texel;
     let mut plot = Plot::new(
         "An occluder that covers the whole disc",
-        Axis::linear("its height over the receiver, radii of the disc"),
-        Axis::linear("share of it that counts"),
+        Axis::linear("height above the receiver, radii of the disc"),
+        Axis::linear("fraction of it that counts"),
     );
     let constant = predict::acne_free_bias(level.texel * 2.0, 0.0, RADIUS);
     let cone = |height: f64| (height / (2.0 * radius)).min(1.0).powi(2);
@@ -253,7 +254,7 @@ fn contacts(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
     let biased = format!("bias={constant}");
     let mut worst = 0.0f64;
     let cone = ("cone of slope 2", "depth=cone,slope=2,bias=0", &cone as Law);
-    let constant = ("constant bias as good at 63.4°", biased.as_str(), &step as Law);
+    let constant = ("constant bias that is as safe at 63.4°", biased.as_str(), &step as Law);
     for (name, depth, expected) in [cone, constant] {
         let (mut measured, mut predicted) = (Vec::new(), Vec::new());
         for index in 1..=24 {
@@ -288,7 +289,7 @@ fn pictures(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
     let truth = set.truth(cx);
     for (name, caption, depth) in [
         ("one-texel", "Disc, bias of one texel".to_string(), "bias=1t".to_string()),
-        ("constant", format!("Disc, the bias that D-9 asks for: {constant:.2}"), format!("bias={constant}")),
+        ("constant", format!("Disc, the bias that D-9 requires: {constant:.2}"), format!("bias={constant}")),
         ("cone", "Cone of slope 2, no bias".to_string(), "depth=cone,slope=2,bias=0".to_string()),
     ] {
         let picture = set.by(cx, &format!("{DISC},{depth}"), &Frame::default())?;

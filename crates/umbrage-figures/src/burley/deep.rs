@@ -24,8 +24,8 @@ pub const DEEP: Figure = Figure {
     id: "B06-deep",
     paper: Paper::Burley06,
     title: "Deep maps under the same filter",
-    claim: "Casters that let light through or that move throw partial, coloured and blurred shadows.",
-    look: "the coloured shadow of glass, the grey one of leaves and the blurred one of the ball that moves.",
+    claim: "Casters that transmit light or that move cast partial, coloured and blurred shadows.",
+    look: "the coloured shadow of the glass, the grey one of the leaves and the blurred one of the moving ball.",
     make: deep,
 };
 
@@ -33,7 +33,7 @@ pub const DEEP: Figure = Figure {
 const EPSILON: f32 = 0.01;
 const EPSILONS: [f32; 5] = [0.001, 0.003, 0.01, 0.03, 0.1];
 
-/// A scene to be seen, and the moments of its casters.
+/// A scene to be rendered, and the moments of its casters.
 struct Case {
     name: &'static str,
     set: Set,
@@ -110,8 +110,8 @@ impl Case {
     }
 }
 
-/// The last object of the scenes, lit by what nothing shadows, as an open shutter sees it: the colour that it adds to each pixel, and the part of the
-/// time for which it covers it.
+/// The last object of the scenes, unshadowed, as an open shutter sees it: the colour that it adds to each pixel, and the fraction of the time for
+/// which it covers that pixel.
 fn streak(cx: &Context, set: &Set, moments: &[Scene]) -> (Vec<Vec3>, Vec<f32>) {
     let pixels = (set.scene.camera.size().x * set.scene.camera.size().y) as usize;
     let (mut colour, mut covered) = (vec![Vec3::ZERO; pixels], vec![0.0; pixels]);
@@ -170,10 +170,10 @@ fn deep(cx: &Context) -> anyhow::Result<Made> {
         }
     }
     made.plots.push(("bytes".into(), curve.svg()));
-    made.note = "Each texel holds the mean of 16 samples (glass) or 4, and over the ball's moments; the oracle \
-    looks along its own rays, at other times. Shadows are those of a point light: what is soft here is glass, \
-    leaves and motion. The ball is drawn over the picture as a shutter that is open all the while sees it; it is not measured, and the streak \
-    of shadow under it is."
+    made.note = "Each texel holds the mean of 16 samples for the glass and of 4 for the others, and for the \
+    ball also the mean over its moments; the oracle traces rays of its own, at other moments. Shadows are those of a point light: what is soft here is glass, \
+    leaves and motion. The ball is drawn over the picture as an open shutter sees it; what is measured is the streak of shadow under it, not \
+    the ball."
         .into();
     Ok(made)
 }
@@ -191,7 +191,7 @@ fn v56() -> anyhow::Result<Vec<Measure>> {
     ])
 }
 
-/// Checks every texel of the map, and of others of the curve's bounds, against one that loses nothing; gives the curve.
+/// Checks every texel of the map, and of maps with the curve's other bounds, against a lossless map; returns the curve.
 fn stored(cx: &Context, case: &Case, map: &DeepMap, made: &mut Made) -> anyhow::Result<Vec<(f64, f64)>> {
     let whole = expose_deep(case.view(), &case.moments.iter().collect::<Vec<_>>(), &Deep::new(0.0, case.axis)?);
     let texels: Vec<IVec2> = TexelRect::of_size(case.view().size()).texels().collect();
@@ -273,13 +273,13 @@ fn panels(made: &mut Made, case: &Case, picture: &Picture, truth: &Picture) {
     made.panels.push(of_truth(colour_panel(&exact, &title("rays"), truth.size, &drawn(truth))));
     if case.flying.is_some() {
         let bare = format!("{stem}-shadow-truth");
-        let panel = shadow_panel(&format!("{stem}-shadow"), &title("deep map, the shadow alone"), picture);
+        let panel = shadow_panel(&format!("{stem}-shadow"), &title("deep map, shadow only"), picture);
         made.panels.push(panel.against(&bare));
-        made.panels.push(of_truth(shadow_panel(&bare, &title("rays, the shadow alone"), truth)));
+        made.panels.push(of_truth(shadow_panel(&bare, &title("rays, shadow only"), truth)));
     }
     made.panels.push(error_panel(
         &format!("{stem}-error"),
-        &title("shadow less truth"),
+        &title("shadow minus truth"),
         picture.size,
         &picture.shadow[0],
         &truth.shadow[0],

@@ -1,4 +1,4 @@
-//! Burley 2006, Image 77: the density of a shadow by the way from its caster.
+//! Burley 2006, Image 77: the density of a shadow by the distance from its caster.
 
 use super::soft::{CORNER, FLOOR, LIGHT, TAPS, bound};
 use crate::figure::{Context, Figure, Paper};
@@ -16,7 +16,7 @@ pub const I77: Figure = Figure {
     id: "B06-I77",
     paper: Paper::Burley06,
     title: "Opacity by the occluder's distance",
-    claim: "A shadow fades with the way from its occluder; off by default.",
+    claim: "A shadow can fade with the distance from its occluder; this is off by default.",
     look: "how the shadow fades with the distance to what casts it.",
     make: opacity,
 };
@@ -68,7 +68,7 @@ fn opacity(cx: &Context) -> anyhow::Result<Made> {
     let caption = format!("Opacity 1 to {FAR} over {FADE} world units");
     shadow_and_error(&mut made, ("on", &caption), ("recipe", &faded), &on, &truth);
     made.panels.push(truth_panel(&truth));
-    made.panels.push(colour_panel("colour", "The same as a picture", on.size, &on.colour));
+    made.panels.push(colour_panel("colour", "The same, shaded", on.size, &on.colour));
     made.measures = vec![
         Measure::at_most("umbra's density: largest difference from o(δ)", worst, "share", 0.02),
         Measure::exactly("pixels that an opacity of 1 everywhere changes", same(&off, &neutral), "pixels", 0.0),
@@ -76,14 +76,14 @@ fn opacity(cx: &Context) -> anyhow::Result<Made> {
     ];
     let plot = Plot::new(
         "Density in the middle of the shadow",
-        Axis::linear("δ, way from occluder to receiver, world units"),
+        Axis::linear("δ, distance from occluder to receiver, world units"),
         Axis::linear("shadow"),
     )
-    .add(Series::line("o(δ), as asked for", predicted))
+    .add(Series::line("o(δ), as set", predicted))
     .add(Series::dots("o(δ), measured", measured));
     made.plots.push(("density".into(), plot.svg()));
     made.note =
-        "A control for the eye: with it on, the shadow is not that of any light; the truth beside it is the light's."
+        "This is an artistic control: with it on, the shadow is not that of any light; the truth beside it is the light's."
             .into();
     Ok(made)
 }

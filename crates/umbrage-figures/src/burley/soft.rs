@@ -16,7 +16,7 @@ use umbrage_report::{Made, Measure, Role, Table};
 use umbrage_scene::gallery;
 use umbrage_shadow::Shadow;
 
-/// Radius of the disc that the light is, world units.
+/// Radius of the disc-shaped light, world units.
 pub const LIGHT: f64 = 25.0;
 /// Id of the floor in the gallery's contact-box.
 pub const FLOOR: u32 = 1;
@@ -31,8 +31,8 @@ pub const I76: Figure = Figure {
     id: "B06-I76",
     paper: Paper::Burley06,
     title: "Soft shadows from one map",
-    claim: "A shadow is sharp where things touch and softer with distance, without acne at the contact.",
-    look: "the shadow from foot to tip: sharp at the contact, softer along the way.",
+    claim: "A shadow is sharp where things touch and grows softer with distance, without acne at the contact.",
+    look: "the shadow from foot to tip: sharp at the contact, softer farther away.",
     make: soft,
 };
 
@@ -141,10 +141,10 @@ fn soft(cx: &Context) -> anyhow::Result<Made> {
     overlapping(cx, &mut made)?;
     made.note = format!(
         "The light is a disc of radius {LIGHT}; {:.3} of its penumbra lies between 10 and 90 %. \
-        Burley's largest radius is that of D-16 for occluders half-way up the box, and the constant biases are \
-        those of D-9 for the floor half-way along the shadow. Fernando's search of the same radius needs so \
+        Burley's largest radius is that of D-16 for occluders halfway up the box, and the constant biases are \
+        those of D-9 for the floor halfway along the shadow. Fernando's search of the same radius needs so \
         large a bias that the box's shadow goes missing near its foot. Faces turned away from the light are drawn \
-        in shadow, as shading has them: what a map says of them is never asked.",
+        in shadow, as shading makes them: the map is never looked up for them.",
         predict::DISC_EDGE_10_90
     );
     Ok(made)
@@ -245,7 +245,7 @@ fn overlapping(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
         let drawn = as_shaded(&picture);
         made.panels.push(error_panel(
             &format!("overlapping-{name}-error"),
-            &format!("Overlapping occluders, {caption}: less truth"),
+            &format!("Overlapping occluders, {caption}: minus truth"),
             picture.size,
             &drawn.shadow[0],
             &shown.shadow[0],

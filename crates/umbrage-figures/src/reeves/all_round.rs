@@ -19,7 +19,7 @@ pub const OMNI: Figure = Figure {
     id: "R87-omni",
     paper: Paper::Reeves87,
     title: "A light in all directions",
-    claim: "A light inside the scene throws shadows all round, and no seam shows.",
+    claim: "A light inside the scene casts shadows in all directions, and no seam is visible.",
     look: "the lines where the faces of the cube meet: no edge runs along them.",
     make: omni,
 };
@@ -98,7 +98,7 @@ fn omni(cx: &Context) -> anyhow::Result<Made> {
     let truth = shoot(&RayCast::everywhere(&geometry, LAMP.extend(1.0)), &Frame { axis: 4, ..frame });
     let [over, within] = pairs(&truth);
     let floor = of(&truth, |id| id == 0);
-    // Belts end where sectors see no more: beyond 1.6 of elevation, right under the lamp.
+    // Belts end where the sectors' views end: beyond 1.6 of elevation, right under the lamp.
     let belt: Vec<bool> = (0..floor.len())
         .map(|i| {
             let at = truth.position[i] - LAMP;
@@ -126,7 +126,7 @@ fn omni(cx: &Context) -> anyhow::Result<Made> {
                 .against("truth"),
             shadow_panel("sectors", "Six sectors", &by_own).with("MB", megabytes(sectors.bytes())).against("truth"),
             truth_panel(&truth),
-            error_panel("error", "Cube less truth", truth.size, &by_cube.shadow[0], &truth.shadow[0]),
+            error_panel("error", "Cube minus truth", truth.size, &by_cube.shadow[0], &truth.shadow[0]),
             Panel::grey("seams", "Where the cube's faces meet", truth.size, seam_picture(&by_cube)).role(Role::Map),
         ],
         measures: vec![

@@ -18,7 +18,7 @@ pub const F9: Figure = Figure {
     id: "R87-F9",
     paper: Paper::Reeves87,
     title: "Bias (0, 0), (.2, .3), (.3, .4)",
-    claim: "Moiré goes as the bias grows; the boundary of self-shadow moves.",
+    claim: "As the bias grows, moiré disappears and the boundary of the self-shadow moves.",
     look: "the stripes of (a) and (d) at bias 0, and how far the line where the sphere shadows itself has moved by (f).",
     make: bias,
 };
@@ -51,14 +51,14 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         {
             let panel = zoomed(letter, &format!("({letter}) {place}"), &picture, centre, 6);
             made.panels.push(panel.with("bias", &label).with("map", "1024²").against(&format!("truth-{place}")));
-            let caption = format!("({letter}) less truth");
+            let caption = format!("({letter}) minus truth");
             made.panels.push(zoomed_error(&format!("{letter}-error"), &caption, &picture, &exact, centre, 6));
         }
         let (letter, size) = (letters[1], picture.size);
         let (name, caption) = (format!("{letter}-shaded"), format!("({letter}) with its shading"));
         shaded.push(zoomed_colour(&name, &caption, size, &picture.colour, TERMINATOR, 6).with("bias", &label));
         if index == 2 {
-            let caption = "Where (d) to (f) look, bias (0.3, 0.4)";
+            let caption = "The place that (d) to (f) enlarge, bias (0.3, 0.4)";
             shaded.push(framed("where", caption, size, &picture.colour, TERMINATOR, 6));
             let wide = presets::reeves87().filter.with_depth(Biased::world(low, high)).with_min_size(3.0);
             let wide = set.shoot(cx, wide, &Frame::CENTRES);
@@ -89,12 +89,12 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         Measure::at_most("cast edge moved from (.2, .3) to (.3, .4)", (edges[2] - edges[1]).abs(), "px", 0.5)
             .full_size(cx.quick),
     ];
-    made.note = "On the plane the moiré goes. On the sphere it goes where the surface faces the light, and draws back toward the boundary as the bias grows; \
-                 but there the surface turns edge-on, its depth changes without bound from texel to texel, and no constant bias is enough (D-9): the plot \
-                 shows what is left against N·L. The rings lie where the sphere's outline runs along a row of the map: the region's box, \
+    made.note = "On the plane the moiré disappears. On the sphere it disappears where the surface faces the light and retreats toward the terminator as the \
+                 bias grows; but there the surface turns edge-on, the change of its depth from texel to texel has no bound, and no constant bias is enough \
+                 (D-9): the plot shows what is left against N·L. The rings lie where the sphere's outline runs along a row of the map: the region's box, \
                  the sphere seen edge-on, is narrower there than a texel, so that all its samples read the same few texels and nothing is averaged. \
-                 Regions of at least 3 texels turn the rings into even grey (f, last). With the shading, as one sees the picture, \
-                 both lie where hardly any light arrives."
+                 Regions of at least 3 texels turn the rings into even grey (f, last). In the shaded picture moiré and rings both \
+                 lie where hardly any light arrives."
         .into();
     Ok(made)
 }
@@ -127,7 +127,7 @@ fn excess(picture: &Picture, truth: &Picture, mask: &[bool]) -> Option<f64> {
 
 /// Where the sphere's self-shadow reaches one half past the true terminator, against D-11, in degrees, and over how many pixels.
 ///
-/// The closed form wants texels small against the bias's own chord, b²/2r: the light is fitted to the sphere and point look-ups are used.
+/// The closed form holds for texels that are small against the bias's own chord, b²/2r: the light is fitted to the sphere and point look-ups are used.
 fn terminator(cx: &Context) -> anyhow::Result<(f64, f64, u32)> {
     const BIAS: f32 = 0.35;
     let mut scene = gallery::sphere_plane();

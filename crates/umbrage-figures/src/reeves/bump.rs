@@ -1,4 +1,4 @@
-//! Reeves, Salesin & Cook 1987, §6: the same filter over something that is no depth. Highlights of a bumpy surface, transformed before
+//! Reeves, Salesin & Cook 1987, §6: the same filter over something other than depths. Highlights of a bumpy surface, transformed before
 //! they are filtered (R87-26, EXT-8).
 
 use super::hammered::{self, highlight};
@@ -14,7 +14,7 @@ pub const BUMP: Figure = Figure {
     id: "R87-bump",
     paper: Paper::Reeves87,
     title: "Highlights before filtering",
-    claim: "A bumpy surface far away keeps its highlight when each bump's own is filtered, and loses it when its normals are.",
+    claim: "A distant bumpy surface keeps its highlight when the highlights of its bumps are filtered, and loses it when their normals are.",
     look: "the far end of the surface, where the highlight fades only if normals are averaged before it is computed.",
     make: bump,
 };
@@ -56,7 +56,7 @@ fn transformed_first(bumps: &Bumps, pattern: &impl Pattern, region: &Footprint, 
     weighted_mean(pattern, region, key, |tap| highlight(bumps.at(tap.at), half))
 }
 
-/// The mean normal's highlight, once more of unit length or not.
+/// The highlight of the mean normal, normalised or not.
 fn filtered_first(
     bumps: &Bumps,
     pattern: &impl Pattern,
@@ -106,10 +106,10 @@ fn bump(cx: &Context) -> anyhow::Result<Made> {
         Axis::log("width of the region, texels"),
         Axis::linear("mean highlight"),
     )
-    .add(Series::line("every bump's own, supersampled", exact))
-    .add(Series::dots("transformed, then filtered: 16 samples", ours))
+    .add(Series::line("every bump's own highlight, supersampled", exact))
+    .add(Series::dots("highlights, then filtered: 16 samples", ours))
     .add(Series::line("filtered normals", flat))
-    .add(Series::line("filtered normals, of unit length again", unit));
+    .add(Series::line("filtered normals, normalised", unit));
     Ok(Made {
         panels: hammered::panels(cx),
         plots: vec![("energy".into(), plot.svg())],
@@ -139,8 +139,9 @@ fn bump(cx: &Context) -> anyhow::Result<Made> {
             Measure::at_most("filtered normals keep", lost, "share of truth", 0.5),
             Measure::at_most("filtered normals of unit length keep", lost_unit, "share of truth", 0.5),
         ],
-        note: "The picture is of a floor of hammered copper, round dents and domes of even steepness, lit from behind. Near by a dome covers many \
-               pixels, and all methods agree. Toward the horizon a pixel covers hundreds: their filtered normals cancel to that of a flat floor, which sends no \
+        note: "The picture shows a floor of hammered copper, with round dents and domes of equal steepness, lit from behind. Nearby, a dome \
+               covers many pixels, and all methods agree. Toward the horizon a pixel covers hundreds: their filtered normals cancel to that of a flat floor, \
+               which sends no \
                highlight to the eye, so the copper goes dull; filtered highlights keep its sheen. The numbers are of a map of random bumps \
                seen through regions of growing width."
             .into(),

@@ -1,4 +1,4 @@
-//! A floor of hammered metal that goes away to the horizon: what highlights before filtering, and after, make of it.
+//! A floor of hammered metal that reaches to the horizon, with highlights computed before filtering and after.
 
 use crate::figure::Context;
 use crate::stage::panels::{error_panel, zoomed_colour};
@@ -19,7 +19,7 @@ pub(super) fn highlight(normal: Vec3, half: Vec3) -> f32 {
 /// Toward the light, low behind the floor, and half-way from there to an eye that is far away.
 const LIGHT: Vec3 = Vec3::new(0.56, 0.75, 0.35);
 const HALF: Vec3 = Vec3::new(0.42, 0.64, 0.643);
-/// The metal: what it scatters and what it mirrors.
+/// The metal: its diffuse and its specular colour.
 const MATT: Vec3 = Vec3::new(0.22, 0.085, 0.035);
 const SHINE: Vec3 = Vec3::new(1.6, 0.95, 0.6);
 
@@ -40,7 +40,7 @@ fn normal(at: Vec2) -> Vec3 {
     steep.extend((1.0 - steep.length_squared()).sqrt())
 }
 
-/// What a normal sends to the eye.
+/// The light that a normal sends to the eye.
 fn shaded(normal: Vec3) -> Vec3 {
     MATT * (0.25 + normal.dot(LIGHT).max(0.0)) + SHINE * highlight(normal, HALF.normalize())
 }
@@ -50,7 +50,7 @@ fn first(pattern: &impl Pattern, region: &Footprint, key: Key) -> Vec3 {
     weighted_mean(pattern, region, key, |tap| shaded(normal(tap.at)))
 }
 
-/// What a pixel of the picture covers of the floor. Rows go from near the horizon down to the feet.
+/// The part of the floor that a pixel of the picture covers. Rows go from near the horizon down to the viewer's feet.
 fn footprint(pixel: UVec2, size: UVec2) -> Footprint {
     let ground = |x: f32, y: f32| {
         let distance = 4.5 / (0.01 + y / size.y as f32);
@@ -82,7 +82,7 @@ pub(super) fn panels(cx: &Context) -> Vec<Panel> {
         Panel::rgb(name, caption, size, pixels.to_vec()).with("exponent", EXPONENT)
     };
     let enlarged = |name: &str, caption: &str, pixels: &[Vec3]| {
-        zoomed_colour(&format!("{name}-far"), &format!("{caption}, far away"), size, pixels, far, part)
+        zoomed_colour(&format!("{name}-far"), &format!("{caption}, far end"), size, pixels, far, part)
     };
     vec![
         panel("transformed-first", "Highlights, then filtered: 16 samples", &transformed).against("truth"),
@@ -91,6 +91,6 @@ pub(super) fn panels(cx: &Context) -> Vec<Panel> {
         enlarged("transformed-first", "Highlights, then filtered", &transformed),
         enlarged("filtered-first", "Normals filtered first", &filtered),
         enlarged("truth", "1,024 samples", &truth).role(Role::Truth),
-        error_panel("error", "Normals filtered first, less truth", size, &grey(&truth), &grey(&filtered)),
+        error_panel("error", "Normals filtered first, minus truth", size, &grey(&truth), &grey(&filtered)),
     ]
 }

@@ -1,5 +1,5 @@
-//! What Reeves, Salesin & Cook 1987 leave open, shown on purpose: the width of a filtered edge does not know how high
-//! its caster is.
+//! A limit of Reeves, Salesin & Cook 1987, shown on purpose: the width of a filtered edge does not depend on the
+//! height of its caster.
 
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::panels::{shadow_and_error, truth_panel};
@@ -17,17 +17,17 @@ pub const NOPEN: Figure = Figure {
     id: "R87-nopen",
     paper: Paper::Reeves87,
     title: "Width of an edge and height of its caster",
-    claim: "Percentage closer filtering makes all edges equally wide; an area light, and Burley's filter, do not.",
-    look: "the edges under the low and the high caster: the filter makes them equally wide, the light with a size does not.",
+    claim: "Percentage-closer filtering makes all edges equally wide; an area light and Burley's filter do not.",
+    look: "the edges under the low and the high caster: the filter makes them equally wide, the area light does not.",
     make: widths,
 };
 
-/// Radius of the disc that the light is, world units.
+/// Radius of the disc-shaped light, world units.
 const LIGHT: f64 = 18.0;
-/// Upper edges of the two boards, which throw the shadow's edges, and where on z one looks.
+/// The upper edges of the two boards, which cast the shadow's edges, and the z at which each is measured.
 const BOARDS: [(&str, f64, f32); 2] = [("board at height 10", 11.0, 26.0), ("board at height 40", 41.0, -26.0)];
 
-/// The edge that a board throws on the floor; the board ends at x = 5.
+/// The edge that a board casts on the floor; the board ends at x = 5.
 fn edge(height: f64, z: f32) -> Edge {
     let x = 5.0 * 400.0 / (400.0 - height);
     Edge {
@@ -52,8 +52,11 @@ fn widths(cx: &Context) -> anyhow::Result<Made> {
     ];
     let truth = set.truth_disc(cx, &Frame::CENTRES, LIGHT);
     let mut made = Made::default();
-    let mut plot =
-        Plot::new("Shadow across the two edges", Axis::linear("way into the shadow, texels"), Axis::linear("shadow"));
+    let mut plot = Plot::new(
+        "Shadow across the two edges",
+        Axis::linear("distance into the shadow, texels"),
+        Axis::linear("shadow"),
+    );
     let mut ramps = Vec::new();
     for (name, caption, recipe) in &recipes {
         let parsed: Recipe = recipe.parse()?;
@@ -100,10 +103,9 @@ fn widths(cx: &Context) -> anyhow::Result<Made> {
         Measure::info("area light: 10–90 % width at height 40 (D-16)", exact[1], "texels"),
     ];
     made.plots.push(("ramps".into(), plot.svg()));
-    made.note =
-        "The paper says that its edges are no penumbrae; this is what it means. One floor, one map, one filter, \
-        two heights."
-            .into();
+    made.note = "The paper says that its soft edges are not penumbrae, and this figure shows what that means: floor, \
+        map and filter are the same for both heights."
+        .into();
     Ok(made)
 }
 

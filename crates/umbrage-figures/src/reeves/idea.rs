@@ -21,11 +21,11 @@ pub const F1: Figure = Figure {
     paper: Paper::Reeves87,
     title: "Points of view for a simple scene",
     claim: "The two-pass idea: what the camera sees lit is what the light sees.",
-    look: "the three views of one scene: what the light does not see is dark in the camera's.",
+    look: "the three views of one scene: what the light does not see is dark in the camera's view.",
     make: points_of_view,
 };
 
-/// Reeves' filter against the tangent plane: regions as large as those seen from far off need no larger bias then (R87-13).
+/// Reeves' filter against the tangent plane: with it, even regions as large as those seen from far away need no larger bias (R87-13).
 fn on_plane() -> Pcf<Jittered, OnPlane> {
     Pcf::default()
         .with_depth(OnPlane::biased(Bias::World(0.35)))
@@ -79,7 +79,7 @@ fn points_of_view(cx: &Context) -> anyhow::Result<Made> {
             view("b-light", "View from the light source", &seen_from(&light)),
             view("c-camera", "View from the camera", &camera),
             truth_panel(&exact),
-            error_panel("error", "The camera's shadow less truth", exact.size, &camera.shadow[0], &exact.shadow[0]),
+            error_panel("error", "The camera's shadow minus truth", exact.size, &camera.shadow[0], &exact.shadow[0]),
         ],
         measures: vec![
             Measure::at_least("lit points of the picture", f64::from(lit), "points", 1000.0),
@@ -94,7 +94,7 @@ pub const F2: Figure = Figure {
     id: "R87-F2",
     paper: Paper::Reeves87,
     title: "Ordinary against percentage-closer filtering",
-    claim: "Filtering the depths first gives 22.9 and full shadow; comparing first gives .55.",
+    claim: "Filtering the depths first gives a mean of 22.9 and full shadow; comparing first gives a shadow of .55.",
     look: "the nine depths under the region, and what each method makes of them: all in shadow, or five of nine.",
     make: two_orders,
 };
@@ -128,7 +128,7 @@ fn two_orders(cx: &Context) -> anyhow::Result<Made> {
             grey("depths", "Depths under the region, nearer darker", depths.iter().map(|d| d / 51.0).collect())
                 .with("z", z),
             grey("a-ordinary", "Ordinary: all of it in shadow", vec![0.0; 9]).with("mean depth", format!("{mean:.1}")),
-            grey("b-percentage-closer", "Compared first: five of nine nearer", nearer).with("share", ".55"),
+            grey("b-percentage-closer", "Compared first: five of nine nearer", nearer).with("fraction", ".55"),
         ],
         measures: vec![
             Measure::within("mean depth", mean, "", 22.944_44, 22.944_45),
@@ -150,7 +150,7 @@ pub const F3: Figure = Figure {
     id: "R87-F3",
     paper: Paper::Reeves87,
     title: "Where samples fall",
-    claim: "Uniform, Gaussian, jittered, and inside the region's boundary.",
+    claim: "Samples are placed uniformly, by a Gaussian, jittered within cells, or only inside the region's boundary.",
     look: "how the dots fill the same footprint: evenly, bunched at the middle, scattered within cells, or kept inside its outline.",
     make: placements,
 };
@@ -285,7 +285,7 @@ pub const F5: Figure = Figure {
     id: "R87-F5",
     paper: Paper::Reeves87,
     title: "Sphere and plane",
-    claim: "A red sphere throws its shadow onto an upright green plane.",
+    claim: "A red sphere casts its shadow on an upright green plane.",
     look: "where the sphere meets its shadow on the plane.",
     make: example,
 };
@@ -300,12 +300,12 @@ fn example(cx: &Context) -> anyhow::Result<Made> {
         panels: vec![
             colour_panel("shaded", "Full shading", picture.size, &picture.colour)
                 .with("map", "1024²")
-                .with("samples a pixel", 16)
+                .with("samples per pixel", 16)
                 .with("ResFactor", 3)
                 .with("bias", "0.3–0.4")
                 .against("truth"),
             colour_panel("truth", "Ray-traced truth", truth.size, &truth.colour).role(Role::Truth),
-            error_panel("error", "Shadow less truth", picture.size, &picture.shadow[0], &truth.shadow[0]),
+            error_panel("error", "Shadow minus truth", picture.size, &picture.shadow[0], &truth.shadow[0]),
         ],
         measures: vec![
             Measure::at_most("shift of the cast shadow's centroid", value(shift), "px", 1.0).full_size(cx.quick),
@@ -318,7 +318,7 @@ pub const F6: Figure = Figure {
     id: "R87-F6",
     paper: Paper::Reeves87,
     title: "Shadow component: ordinary z-buffer against percentage-closer filtering",
-    claim: "Jagged and binary against antialiased, from the same map.",
+    claim: "From the same map, an ordinary z-buffer gives jagged, binary edges and percentage-closer filtering antialiased ones.",
     look: "the two enlargements: squares of the map in (a), a ramp of many greys in (b).",
     make: component,
 };
@@ -345,8 +345,8 @@ fn component(cx: &Context) -> anyhow::Result<Made> {
                 .with("bias", "0.3–0.4")
                 .against("truth"),
             truth_panel(&truth),
-            error_panel("a-error", "(a) less truth", truth.size, &ordinary.shadow[0], &truth.shadow[0]),
-            error_panel("b-error", "(b) less truth", truth.size, &filtered.shadow[0], &truth.shadow[0]),
+            error_panel("a-error", "(a) minus truth", truth.size, &ordinary.shadow[0], &truth.shadow[0]),
+            error_panel("b-error", "(b) minus truth", truth.size, &filtered.shadow[0], &truth.shadow[0]),
             zoomed("a-zoom", "(a) enlarged", &ordinary),
             zoomed("b-zoom", "(b) enlarged", &filtered),
             zoomed("b-soft", "The same with ResFactor 3", &softened),
@@ -359,7 +359,7 @@ fn component(cx: &Context) -> anyhow::Result<Made> {
             Measure::at_most("(b) edge error over (a)", b / a, "ratio", 0.5),
             Measure::info("ResFactor 3: edge error over (a)", error(&softened) / a, "ratio"),
         ],
-        note: "Judged at ResFactor 1, where a region is a pixel; ResFactor 3 softens the edge on purpose, away from a point light's.".into(),
+        note: "Errors are judged at ResFactor 1, where a region is a pixel; ResFactor 3 deliberately makes the edge softer than a point light's.".into(),
         ..Made::default()
     })
 }

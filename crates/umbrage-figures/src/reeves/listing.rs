@@ -15,7 +15,7 @@ pub const F4: Figure = Figure {
     id: "R87-F4",
     paper: Paper::Reeves87,
     title: "The listing, printed and corrected",
-    claim: "What SampleShadow does as printed, and what it must do.",
+    claim: "SampleShadow as printed has errors, and each is shown beside the corrected listing.",
     look: "the counts of samples by the listing as printed, beside the corrected ones, row by row.",
     make: listing,
 };
@@ -73,7 +73,7 @@ fn printed(cx: &Context, listing: &Listing, map: &Raw, z: f32, centre: DVec2, ha
     (0..rounds).map(one).sum::<f64>() / f64::from(rounds)
 }
 
-/// The same of the corrected filter.
+/// The same for the corrected filter.
 fn corrected(
     cx: &Context,
     filter: Pcf,
@@ -114,7 +114,7 @@ fn listing(cx: &Context) -> anyhow::Result<Made> {
     let hard = |rand| Listing { rand, res_factor: 1.0, bias0: 0.0, bias1: 0.0, ..Listing::default() };
     let exact = Pcf::default().with_depth(Biased::constant(Bias::ZERO)).with_res_factor(1.0);
     let at = |s: f64| DVec2::new(s, 128.0);
-    // Share across the edge by position: the printed range moves the whole ramp.
+    // The fraction across the edge by position: the printed range moves the whole ramp.
     let places: Vec<f64> = (0..=48).map(|step| 97.0 + f64::from(step) / 8.0).collect();
     let ours = places.iter().map(|&s| Ok((s, corrected(cx, exact, &edge, 10.0, at(s), 2.0, 400)?)));
     let ours = ours.collect::<anyhow::Result<Vec<_>>>()?;
@@ -122,7 +122,7 @@ fn listing(cx: &Context) -> anyhow::Result<Made> {
     let plot = Plot::new(
         "A straight edge at column 100",
         Axis::linear("centre of the region, texels"),
-        Axis::linear("share in shadow"),
+        Axis::linear("fraction in shadow"),
     )
     .add(Series::line("corrected", ours))
     .add(Series::line("as printed, Rand() in [0, 1)", theirs.collect()));

@@ -64,7 +64,7 @@ fn num_samples(cx: &Context) -> anyhow::Result<Made> {
             made.panels.push(panel.with("ResFactor", 8).with("map", "1024²").against("limit"));
         }
         if n == 16 {
-            made.panels.push(zoomed_error("error", "16 samples less 1,024", &picture, &limit, BOX_EDGE, 8));
+            made.panels.push(zoomed_error("error", "16 samples minus 1,024", &picture, &limit, BOX_EDGE, 8));
         }
     }
     let panel = zoomed("limit", "1,024 samples: the filter's own limit", &limit, BOX_EDGE, 8);
@@ -80,15 +80,15 @@ fn num_samples(cx: &Context) -> anyhow::Result<Made> {
         -0.6,
     ));
     made.measures.push(Measure::within("uniform: the same slope", slope(&uniform), "", -0.6, -0.4));
-    let plot = Plot::new("Noise in a soft edge", Axis::log("NumSamples"), Axis::log("rms error, share"))
+    let plot = Plot::new("Noise in a soft edge", Axis::log("NumSamples"), Axis::log("rms error"))
         .add(Series::line("jittered", jitter))
         .add(Series::line("uniform", uniform));
     made.plots.push(("noise".into(), plot.svg()));
-    made.note = "Zooms by pixel replication; one region a pixel.".into();
+    made.note = "The enlargements repeat pixels; there is one region per pixel.".into();
     Ok(made)
 }
 
-/// The straight edge that the box's top throws on the slab, as a band of pixels.
+/// The straight edge that the box's top casts on the slab, as a band of pixels.
 fn straight_edge(scene: &Scene, half_width: f64) -> Band {
     // The edge x = 0 at the top of the box, z = 24, seen from the light at (−30, 5, 110), falls on z = 0.
     let light = DVec3::new(-30.0, 5.0, 110.0);
@@ -105,7 +105,7 @@ pub const F8: Figure = Figure {
     id: "R87-F8",
     paper: Paper::Reeves87,
     title: "ResFactor 1, 3, 8",
-    claim: "Softer and wider edges; quantisation shows when the edge is wide.",
+    claim: "A larger ResFactor makes edges softer and wider; when the edge is wide, its quantisation shows.",
     look: "the width of the edge, and the steps that show in the widest.",
     make: res_factor,
 };
@@ -137,7 +137,7 @@ fn res_factor(cx: &Context) -> anyhow::Result<Made> {
         if [1.0, 3.0, 8.0].contains(&factor) {
             let panel = zoomed(&format!("f{factor}"), &format!("ResFactor {factor}"), &picture, BOX_EDGE, 8);
             made.panels.push(panel.with("NumSamples", 16).with("map", cx.pick("1024²", "512²")).against("truth"));
-            let (name, caption) = (format!("f{factor}-error"), format!("ResFactor {factor} less truth"));
+            let (name, caption) = (format!("f{factor}-error"), format!("ResFactor {factor} minus truth"));
             made.panels.push(zoomed_error(&name, &caption, &picture, &truth, BOX_EDGE, 8));
         }
     }
@@ -174,7 +174,7 @@ pub const F10: Figure = Figure {
     id: "R87-F10",
     paper: Paper::Reeves87,
     title: "Maps of 256², 512², 1024²",
-    claim: "Small maps are blurry and noisy.",
+    claim: "Small maps give blurry and noisy shadows.",
     look: "fine shadows: they blur into one another as the map shrinks.",
     make: map_size,
 };
@@ -192,7 +192,7 @@ fn map_size(cx: &Context) -> anyhow::Result<Made> {
         acne.push(false_shadow(&picture, &points, 8).0);
         let panel = zoomed(&format!("m{texels:04}"), &format!("Map {texels}²"), &picture, CAST_EDGE, 6);
         made.panels.push(panel.with("ResFactor", 3).with("bias", "0.3–0.4").against("truth"));
-        let (name, caption) = (format!("m{texels:04}-error"), format!("Map {texels}² less truth"));
+        let (name, caption) = (format!("m{texels:04}-error"), format!("Map {texels}² minus truth"));
         made.panels.push(zoomed_error(&name, &caption, &picture, &truth, CAST_EDGE, 6));
         if texels == 1024 {
             let panel = zoomed("truth", "Ray-traced truth", &truth, CAST_EDGE, 6);
@@ -251,7 +251,13 @@ fn float(cx: &Context) -> anyhow::Result<Made> {
                 .with("bias", "¼ quantum")
                 .against("truth"),
             truth_panel(&exact),
-            error_panel("error", "32-bit floats, bias 0, less truth", exact.size, &float_0.shadow[0], &exact.shadow[0]),
+            error_panel(
+                "error",
+                "32-bit floats, bias 0, minus truth",
+                exact.size,
+                &float_0.shadow[0],
+                &exact.shadow[0],
+            ),
         ],
         measures: vec![
             Measure::info("16-bit: false shadow on the plane, bias 0 (M2)", at_0, "share"),
@@ -322,7 +328,7 @@ fn pass1(cx: &Context) -> anyhow::Result<Made> {
             made.panels.push(truth_panel(&truth));
             made.panels.push(error_panel(
                 "error",
-                "Stochastic less truth",
+                "Stochastic minus truth",
                 picture.size,
                 &picture.shadow[0],
                 &truth.shadow[0],

@@ -18,12 +18,12 @@ pub const F11: Figure = Figure {
     id: "R87-F11",
     paper: Paper::Reeves87,
     title: "Three coloured lights",
-    claim: "Where shadows overlap, colours are left out one by one.",
-    look: "the overlaps of the shadows, each of which takes away one light's colour.",
+    claim: "Where shadows overlap, each removes its own light's colour.",
+    look: "the overlaps of the shadows, where the colours of several lights are missing.",
     make: coloured,
 };
 
-/// Shares of the picture's pixels in the eight classes of blocked lights (V22): bit i set where light i is blocked.
+/// Fractions of the picture's pixels in the eight classes of blocked lights (V22): bit i set where light i is blocked.
 fn classes(picture: &Picture) -> [f64; 8] {
     let mut counts = [0u32; 8];
     let whole = of(picture, |_| true);
@@ -44,7 +44,7 @@ fn coloured(cx: &Context) -> anyhow::Result<Made> {
     let colours = [swapped.scene.lights[0].colour, swapped.scene.lights[1].colour];
     (swapped.scene.lights[0].colour, swapped.scene.lights[1].colour) = (colours[1], colours[0]);
     let other = swapped.shoot(cx, recipe, &Frame::default())?;
-    // Exchanging the colours of two lights exchanges two channels of the picture.
+    // Swapping the colours of two lights swaps two channels of the picture.
     let exchanged = |i: usize| {
         let (a, b) = (picture.colour[i], other.colour[i]);
         (a.x - b.y).abs().max((a.y - b.x).abs()).max((a.z - b.z).abs())
@@ -72,9 +72,9 @@ fn coloured(cx: &Context) -> anyhow::Result<Made> {
                 .with("maps", format!("3 × {}²", cx.pick(1024, 512)))
                 .with("bias", "0.3–0.4")
                 .against("truth"),
-            colour_panel("swapped", "Red and green exchanged", other.size, &other.colour),
+            colour_panel("swapped", "Red and green swapped", other.size, &other.colour),
             colour_panel("truth", "Ray-traced truth", truth.size, &truth.colour).role(Role::Truth),
-            error_panel("error", "Mean shadow less truth", picture.size, &grey(&picture), &grey(&truth)),
+            error_panel("error", "Mean shadow minus truth", picture.size, &grey(&picture), &grey(&truth)),
         ],
         measures,
         note: stage.warnings(),
@@ -109,7 +109,7 @@ pub const F12: Figure = Figure {
     id: "R87-F12",
     paper: Paper::Reeves87,
     title: "Two desk lamps",
-    claim: "Three casting lights, maps of their own sizes, a floor that is in no map and yet in shadow.",
+    claim: "Each of three casting lights has a map of its own size, and the floor, which is in no map, still receives shadows.",
     look: "the floor, which receives every shadow although it is in none of the maps.",
     make: desk_lamps,
 };
@@ -132,12 +132,12 @@ fn desk_lamps(cx: &Context) -> anyhow::Result<Made> {
             colour_panel("c-jittered", "Samples placed by method (c)", jittered.size, &jittered.colour)
                 .with("maps", format!("{sides:?}"))
                 .against("truth"),
-            colour_panel("a-uniform", "By method (a), as the film had it", uniform.size, &uniform.colour)
+            colour_panel("a-uniform", "By method (a), as used for the film", uniform.size, &uniform.colour)
                 .against("truth"),
             colour_panel("truth", "Ray-traced truth", truth.size, &truth.colour).role(Role::Truth),
             error_panel(
                 "error",
-                "(c): mean shadow less truth",
+                "(c): mean shadow minus truth",
                 truth.size,
                 &mean_shadow(&stage, &jittered),
                 &mean_shadow(&stage, &truth),
@@ -159,7 +159,7 @@ pub const F13: Figure = Figure {
     id: "R87-F13",
     paper: Paper::Reeves87,
     title: "The lamps' depth maps",
-    claim: "What each light sees, nearer darker; the ground is not there.",
+    claim: "A map shows what its light sees, nearer surfaces darker; the ground is not in it.",
     look: "what is missing from the maps: the ground, which casts no shadow.",
     make: lamp_maps,
 };
@@ -167,7 +167,7 @@ pub const F13: Figure = Figure {
 fn lamp_maps(cx: &Context) -> anyhow::Result<Made> {
     let stage = Stage::new(gallery::desk_lamps(), 64, cx.pick(1, 4))?;
     let mut grounded = stage.scene.clone();
-    // What receives and does not cast is the ground.
+    // The ground is what receives shadows and casts none.
     for object in &mut grounded.objects {
         object.casts |= object.receives;
     }
@@ -189,19 +189,19 @@ fn lamp_maps(cx: &Context) -> anyhow::Result<Made> {
         unordered += order.windows(2).filter(|pair| grey[pair[0]] > grey[pair[1]]).count() as u64;
         let (name, size) = (&light.name, light.view.size());
         let stored = raw.depths().iter().filter(|depth| depth.is_finite()).count() as f64 / grey.len() as f64;
-        let panel = Panel::rgb(name, &format!("{name}: all of the map"), size, tinted(raw.depths(), &grey));
+        let panel = Panel::rgb(name, &format!("{name}: the whole map"), size, tinted(raw.depths(), &grey));
         let panel = panel
             .with("map", format!("{}²", size.x))
             .with("texels that hold a depth", format!("{:.0} %", 100.0 * stored));
         made.panels.push(panel.role(Role::Map));
         let (size, depths) = casters_of(&light.view, raw.depths());
-        let caption = format!("{name}: what it lights, enlarged, greys spread over it");
+        let caption = format!("{name}: what it lights, enlarged, with the greys spread over its depths");
         let close = Panel::rgb(&format!("{name}-close"), &caption, size, tinted(&depths, &spread(&depths)));
         made.panels.push(close.role(Role::Map));
     }
-    made.note = "Nearer is darker, as in the paper; texels that hold no depth are blue. The ground is in no map, and most of what these lights see \
-                 is ground: so most of each map is empty. The dark frame of a lamp's map is the inside of its own shade. Enlarged, greys are spread over \
-                 the depths that are there, each as often as any other; order is kept, distance is not."
+    made.note = "Nearer is darker, as in the paper; texels that hold no depth are blue. The ground is in no map, and since most of what these \
+                 lights see is ground, most of each map is empty. The dark frame of a lamp's map is the inside of its own shade. In the enlargements the greys \
+                 are spread over the depths that are there, so that each grey occurs equally often; they keep the order of depths, not their distances."
         .into();
     made.measures = vec![
         Measure::at_least("texels that would show the ground", there as f64, "texels", 1000.0),
@@ -226,7 +226,7 @@ fn spread(depths: &[f32]) -> Vec<f32> {
     depths.iter().map(|&depth| if depth.is_finite() { LIGHTEST * rank(depth) } else { 1.0 }).collect()
 }
 
-/// The square of a map about what is stored well within the cone, thinned to at most 512 texels a side.
+/// The square of a map around what is stored well within the cone, thinned to at most 512 texels per side.
 fn casters_of(view: &View, depths: &[f32]) -> (UVec2, Vec<f32>) {
     const SIDE: u32 = 512;
     let size = view.size();
@@ -247,7 +247,7 @@ pub const F14: Figure = Figure {
     id: "R87-F14",
     paper: Paper::Reeves87,
     title: "The bicycle shop",
-    claim: "Seven lights, two of which cast: subtle shadows in a complex scene.",
+    claim: "Two of seven lights cast shadows: subtle ones, in a complex scene.",
     look: "the spokes, and their shadows on wall and floor.",
     make: shop,
 };
@@ -272,7 +272,7 @@ fn shop(cx: &Context) -> anyhow::Result<Made> {
             colour_panel("truth", "Ray-traced truth", truth.size, &truth.colour).role(Role::Truth),
             error_panel(
                 "error",
-                "Mean shadow less truth",
+                "Mean shadow minus truth",
                 truth.size,
                 &mean_shadow(&stage, &picture),
                 &mean_shadow(&stage, &truth),

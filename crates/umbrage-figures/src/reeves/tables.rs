@@ -1,4 +1,4 @@
-//! Reeves, Salesin & Cook 1987, Tables 1 and 2: what shadows cost in time and in room.
+//! Reeves, Salesin & Cook 1987, Tables 1 and 2: what shadows cost in time and in memory.
 
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::lights::Stage;
@@ -56,12 +56,12 @@ pub const T1: Figure = Figure {
     id: "R87-T1",
     paper: Paper::Reeves87,
     title: "Time, with and without shadows",
-    claim: "Shadows cost a part of the picture's time, far less than one more picture a light.",
+    claim: "Shadows add to the picture's time far less than one more picture per light.",
     look: "the measures: how much longer the picture takes with its shadows.",
     make: times,
 };
 
-/// Remembers the regions that it is asked about.
+/// Remembers the regions that are looked up in it.
 #[derive(Default)]
 struct Regions(Mutex<Vec<SurfacePoint>>);
 
@@ -263,9 +263,9 @@ fn times(cx: &Context) -> anyhow::Result<Made> {
         "transform alone, ns per receiver",
     ];
     made.run_tables.push(Table { name: "table-1".into(), head: head.map(String::from).to_vec(), rows });
-    made.note = "One thread. Seconds are of this run and machine, and stand in the last table and in timings.json only; a quick run \
-                 does not judge them. The look-ups are timed inside pass 2, so that pass 1, look-ups and the picture itself are \
-                 the whole total."
+    made.note = "All times are for one thread. Seconds are those of this run on this machine, and appear only in the last table and \
+                 in timings.json; a quick run does not judge them. The look-ups are timed within pass 2, so that pass 1, the look-ups and the picture itself \
+                 add up to the total."
         .into();
     Ok(made)
 }
@@ -274,7 +274,7 @@ pub const T2: Figure = Figure {
     id: "R87-T2",
     paper: Paper::Reeves87,
     title: "Storage of depth maps",
-    claim: "A bounding box helps; tiles help scattered scenes and can cost more.",
+    claim: "A bounding box saves memory; tiles save more in scattered scenes, but can also take more.",
     look: "the tables: where tiles take more bytes than the plain map, and where they take a fraction.",
     make: storage,
 };
@@ -329,8 +329,8 @@ fn storage(cx: &Context) -> anyhow::Result<Made> {
     Ok(made)
 }
 
-/// Scenes of plane things, and how many times smaller than raw depths a map of their facets is to be: the boxes, under a light square to the ground, by
-/// as much as a file can pack them.
+/// Scenes of flat surfaces, and by what factor a map of their facets must be smaller than raw depths: for the boxes, under a light perpendicular to the
+/// ground, by as much as a file can compress them.
 const PLANAR: [(&str, Make, f64); 5] = [
     ("box, slab", gallery::box_plane, 5.0),
     ("contact box", gallery::contact_box, 5.0),
@@ -339,7 +339,7 @@ const PLANAR: [(&str, Make, f64); 5] = [
     ("overlapping boxes", gallery::overlapping_boxes, 40.0),
 ];
 
-/// Which facet each texel sees instead of how far it is: the same depths, bit for bit.
+/// A map of the facet that each texel sees in place of its distance: the same depths, bit for bit.
 fn facets_of(scene: &Scene, view: &View) -> anyhow::Result<Map> {
     Ok(light_map(&"auto,fine=1".parse()?, scene, view))
 }

@@ -20,7 +20,7 @@ pub fn spheres(cx: &Context) -> Set {
 }
 
 /// Bias in texel widths, "px" in the figures; the light is at infinity, so it is one world distance everywhere. A departure from
-/// C-11, which counts in depth steps τ·tanθ: half of one leaves no moiré to be seen (D-9), and a bias in the matrix is no slope's.
+/// C-11, which counts in depth steps τ·tanθ: half of one leaves no visible moiré (D-9), and a bias in the matrix does not depend on a slope.
 pub fn reduced(pixels: f32) -> Williams {
     Williams::default().with_bias(Bias::Texels(pixels)).with_lookup(Lookup::Nearest).with_dither(Dither::OFF)
 }
@@ -45,7 +45,7 @@ pub fn post(cx: &Context, set: &Set, picture: &Picture, filter: Williams) -> Sha
     shadow_image(&picture.depth, &set.scene.camera, Some(BITS), &light, Key::new(cx.seed, 0, 0))
 }
 
-/// The sphere that no other shadows: lit exactly where it faces the light, and wholly in view.
+/// The sphere on which no other casts a shadow: lit exactly where it faces the light, and wholly in view.
 pub struct Alone {
     pub id: u32,
     pub centre: DVec2,

@@ -31,7 +31,7 @@ impl Stage {
         Ok(self.draw(cx, &shadows, frame))
     }
 
-    /// What is known to go wrong with the casting lights, for the reader of the figure (W78-8, W78-9, WM94-14).
+    /// Known faults of the casting lights, for the reader of the figure (W78-8, W78-9, WM94-14).
     pub fn warnings(&self) -> String {
         let mut lines = Vec::new();
         for light in &self.scene.lights {
@@ -45,7 +45,7 @@ impl Stage {
             if let [first, rest @ ..] = outside.as_slice() {
                 let others = if rest.is_empty() { String::new() } else { format!(" and {} more", rest.len()) };
                 lines.push(format!(
-                    "Warning: light {:?} does not see all of {first:?}{others}: shadows end where its view does.",
+                    "Warning: light {:?} does not see all of {first:?}{others}: shadows end where its view ends.",
                     light.name
                 ));
             }
@@ -61,7 +61,7 @@ impl Stage {
     /// Rays instead of maps, for the lights that cast; what is left out of the maps blocks no light.
     pub fn truth(&self, cx: &Context, frame: &Frame) -> Picture {
         let geometry = Geometry::new(&self.scene, &self.scene.camera);
-        // Regions are asked at their middles, which lie a little beside finely cut surfaces.
+        // Regions are looked up at their middles, which lie a little off finely tessellated surfaces.
         let truth = Truth { casters_only: true, own_slack: 0.1, ..Truth::default() };
         let ray = |light: &Light| -> Box<dyn Shadow + '_> {
             if light.casts { Box::new(RayCast::new(&geometry, &light.view).with(truth)) } else { Box::new(Unshadowed) }

@@ -16,13 +16,13 @@ pub fn acne(picture: &Picture, truth: &Picture, border: usize, keep: impl Fn(u32
     value(metrics::false_shadow(&picture.shadow[0], &lit(truth, border, keep)))
 }
 
-/// Light where truth says shadowed, on surfaces that face the light by more than .05 (M8), `border` pixels away from truth's light.
+/// Light where truth is shadowed, on surfaces that face the light by more than .05 (M8), `border` pixels away from truth's light.
 pub fn leak(picture: &Picture, truth: &Picture, border: usize) -> f64 {
     let dark = metrics::dark_mask(shadow_grid(truth), &truth.facing[0], border, 0.05);
     value(metrics::leak(&picture.shadow[0], &metrics::both(&dark, &of(truth, |_| true))))
 }
 
-/// The share of the same pixels that are lit by more than `most`: how far light spreads that should not be there, however faint.
+/// The fraction of the same pixels that are lit by more than `most`: how widely false light spreads, however faint it is.
 pub fn leak_area(picture: &Picture, truth: &Picture, border: usize, most: f32) -> f64 {
     let dark = metrics::dark_mask(shadow_grid(truth), &truth.facing[0], border, 0.05);
     let dark = metrics::both(&dark, &of(truth, |_| true));
@@ -53,7 +53,7 @@ pub fn shadow_grid(picture: &Picture) -> Grid<'_> {
     Grid::new(&picture.shadow[0], picture.size.x as usize)
 }
 
-/// A measure's value, NaN where there was nothing to measure: it meets no bound.
+/// A measure's value, NaN where there was nothing to measure: NaN meets no bound.
 pub fn value(measured: Option<f64>) -> f64 {
     measured.unwrap_or(f64::NAN)
 }

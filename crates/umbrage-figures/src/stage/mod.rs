@@ -1,4 +1,4 @@
-//! What figures are made with and none of them is: scenes set up, truths, masks, panels, and places to measure at.
+//! What figures are made of: scenes set up, truths, masks, panels, and places to measure at.
 
 pub mod four_spheres;
 pub mod lights;

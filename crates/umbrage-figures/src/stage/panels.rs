@@ -5,7 +5,7 @@ use umbrage_oracle::heat;
 use umbrage_render::{NOTHING, Picture};
 use umbrage_report::{Made, Panel, Role};
 
-/// The shadow component as one looks at it: light where lit.
+/// The shadow component as it is displayed: light where lit.
 pub fn shadow_panel(name: &str, caption: &str, picture: &Picture) -> Panel {
     shadow_image_panel(name, caption, picture.size, &picture.shadow[0])
 }
@@ -32,14 +32,14 @@ pub fn shadow_and_error(
     let (own, exact) = (&picture.shadow[0], &truth.shadow[0]);
     made.panels.push(error_panel(
         &format!("{name}-error"),
-        &format!("{caption}: less truth"),
+        &format!("{caption}: minus truth"),
         picture.size,
         own,
         exact,
     ));
 }
 
-/// The picture with surfaces that face away from light 0 wholly in its shadow, as shading has them whatever a map says.
+/// The picture with surfaces that face away from light 0 wholly in its shadow, as shading makes them whatever a map holds.
 pub fn as_shaded(picture: &Picture) -> Picture {
     let mut shaded = picture.clone();
     for (i, shadow) in shaded.shadow[0].iter_mut().enumerate() {
@@ -50,7 +50,7 @@ pub fn as_shaded(picture: &Picture) -> Picture {
     shaded
 }
 
-/// Result less truth as colours.
+/// Result minus truth as colours.
 pub fn error_panel(name: &str, caption: &str, size: UVec2, result: &[f32], truth: &[f32]) -> Panel {
     let pixels = result.iter().zip(truth).map(|(r, t)| heat(r - t)).collect();
     Panel::rgb(name, caption, size, pixels).role(Role::Error)
@@ -63,7 +63,7 @@ pub fn zoomed(name: &str, caption: &str, picture: &Picture, centre: DVec2, part:
     shadow_image_panel(name, caption, size, &shadow).zoom(zoom)
 }
 
-/// The same window of result less truth as colours.
+/// The same window of result minus truth as colours.
 pub fn zoomed_error(name: &str, caption: &str, picture: &Picture, truth: &Picture, centre: DVec2, part: u32) -> Panel {
     let (from, window, zoom) = window(picture.size, centre, part);
     let (size, ours) = crop(picture.size, &picture.shadow[0], from, window);

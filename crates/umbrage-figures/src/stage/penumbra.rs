@@ -17,7 +17,7 @@ pub struct Edge {
     pub normal: Vec3,
     /// Unit vector in the plane, square to the edge.
     pub into_shadow: Vec3,
-    /// How far one looks across the edge to either side, world units: beyond the whole penumbra.
+    /// The distance measured across the edge to either side, world units: beyond the whole penumbra.
     pub half_width: f32,
     /// The same along the edge.
     pub half_length: f32,

@@ -77,25 +77,25 @@ impl Set {
         picture(&self.scene, &[shadow], &Frame { seed: cx.seed, ..*frame })
     }
 
-    /// Rays at the very points that a method is asked at: one hard answer per region.
+    /// Rays at the very points at which a method is looked up: one hard result per region.
     pub fn truth_points(&self, cx: &Context, frame: &Frame) -> Arc<Picture> {
         self.ray_cast(cx, frame)
     }
 
-    /// Rays from 64 samples a pixel: what an area-sampled picture should be. 16 in a quick run.
+    /// Rays from 64 samples per pixel: what an area-sampled picture should be. 16 in a quick run.
     pub fn truth(&self, cx: &Context) -> Arc<Picture> {
         let axis = cx.pick(8, 4);
         self.ray_cast(cx, &Frame { axis, stochastic: true, every_sample: true, ..Frame::default() })
     }
 
-    /// Rays to all of a disc in light 0's place, as the figures of soft shadows see it: one soft answer per region.
+    /// Rays to all of a disc in light 0's place, as the figures of soft shadows see it: one soft result per region.
     pub fn truth_disc(&self, cx: &Context, frame: &Frame, radius: f64) -> Arc<Picture> {
         let rays = Rays::Disc { radius, samples: disc_samples(cx) };
         self.traced(cx, frame, rays, |geometry| Box::new(self.disc_light(cx, geometry, radius)))
     }
 
     /// Rays to a disc in light 0's place; `radius` in world units, or the tangent of its angle when the light is
-    /// directional. 256 a point, 64 in a quick run.
+    /// directional. 256 rays per point, 64 in a quick run.
     pub fn disc_light<'a>(&self, cx: &Context, geometry: &'a Geometry, radius: f64) -> AreaLight<'a> {
         AreaLight::new(RayCast::new(geometry, &self.scene.lights[0].view), radius).with_samples(disc_samples(cx))
     }
@@ -114,7 +114,7 @@ impl Set {
     ) -> Arc<Picture> {
         let frame = Frame { seed: cx.seed, ..*frame };
         let Scene { name, lights, camera, .. } = &self.scene;
-        // Where the light stands counts, not how finely its map is cut.
+        // The light's place matters, not its map's resolution.
         let light = sized(&lights[0].view, 1);
         let seen = Seen { scene: name.clone(), light, camera: *camera, frame, rays };
         cx.truths.once(seen, || {
@@ -129,7 +129,7 @@ fn disc_samples(cx: &Context) -> u32 {
     cx.pick(256, 64)
 }
 
-/// The same view with so many columns, and rows in proportion.
+/// The same view with this number of columns, and rows in proportion.
 pub(super) fn sized(view: &View, across: u32) -> View {
     let size = view.size();
     let height = (u64::from(across) * u64::from(size.y) / u64::from(size.x.max(1))).max(1) as u32;

@@ -120,7 +120,7 @@ impl Slice {
         bake(self.light(), Soup::casters(&self.scene, self.light()).triangles(), rule, Cull::None).map
     }
 
-    /// The camera's samples with their answers, each asked as a point without extent.
+    /// The camera's samples with their shadows, each looked up as a point without extent.
     pub fn seen(&self, cx: &Context, shadow: &dyn Shadow) -> Picture {
         let mut seen = picture(&self.scene, &[&Unshadowed], &Frame { seed: cx.seed, ..Frame::CENTRES });
         let points = points_of(&seen);

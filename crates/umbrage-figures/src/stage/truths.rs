@@ -1,4 +1,4 @@
-//! Truths that a run has made already: rays are dear, and several figures show one scene beside its truth.
+//! Truths that a run has made already: rays are expensive, and several figures show one scene beside its truth.
 
 use std::sync::{Arc, Mutex};
 use umbrage_plane::View;
@@ -7,7 +7,7 @@ use umbrage_render::{Frame, Picture};
 /// What rays are sent to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Rays {
-    /// The light's centre: one hard answer.
+    /// The light's centre: one hard result.
     Hard,
     /// A disc in the light's place.
     Disc {
@@ -25,11 +25,11 @@ pub(crate) struct Seen {
     pub scene: String,
     /// Light 0, its map one texel across.
     pub light: View,
-    /// From where it is seen.
+    /// The camera that sees it.
     pub camera: View,
     /// How it is sampled, with the run's own seed.
     pub frame: Frame,
-    /// What the light is taken for.
+    /// The shape that the light is taken for.
     pub rays: Rays,
 }
 
@@ -42,12 +42,12 @@ pub struct Truths {
 }
 
 impl Truths {
-    /// The picture that stands for `seen`; made only when nobody has asked for it before.
+    /// The picture for `seen`, made only the first time.
     pub(crate) fn once(&self, seen: Seen, make: impl FnOnce() -> Picture) -> Arc<Picture> {
         if let Some(known) = self.known(&seen) {
             return known;
         }
-        // Nothing is locked meanwhile: a picture takes all threads, and two that ask at once make the same bits.
+        // Nothing is locked meanwhile: a picture takes all threads, and two callers at once make the same bits.
         let picture = Arc::new(make());
         if let Ok(mut made) = self.made.lock() {
             made.push((seen, picture.clone()));

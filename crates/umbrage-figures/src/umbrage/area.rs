@@ -1,4 +1,4 @@
-//! Our own: the default's lights with a size, against rays and against filters of one map.
+//! Umbrage's own: the default's area lights, against rays and against filters of one map.
 
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::masks::value;
@@ -13,13 +13,13 @@ use umbrage_scene::gallery;
 pub const AREA: Figure = Figure {
     id: "U-auto-area",
     paper: Paper::Umbrage,
-    title: "Lights with a size as a mean of maps",
-    claim: "The mean of small maps over a light is its penumbra, contacts included; filters of one map only look like it.",
+    title: "Area lights as a mean of maps",
+    claim: "The mean of small maps over an area light converges to its penumbra, contacts included; filters of one map only resemble it.",
     look: "the penumbra at the contact, where filters of one map are too wide or too dark.",
     make: area,
 };
 
-/// The radius of the lamp, world units, and what is asked to show it: caption, recipe, side of its maps.
+/// The radius of the lamp, world units, and the recipes that render it: caption, recipe, side of its maps.
 const RADIUS: f64 = 24.0;
 const SOFT: [(&str, &str, &str, u32); 7] = [
     ("pcss", "PCSS by the light's size", "fernando,light=24,bias=1t", 512),
@@ -46,7 +46,7 @@ fn area(cx: &Context) -> anyhow::Result<Made> {
         let (own, exact) = (&picture.shadow[0], &truth.shadow[0]);
         let rms = value(metrics::rms(own, exact, &seen));
         made.panels.push(shadow_panel(id, caption, &picture).with("recipe", recipe).against("truth"));
-        made.panels.push(error_panel(&format!("{id}-error"), "Less truth", truth.size, own, exact));
+        made.panels.push(error_panel(&format!("{id}-error"), "Minus truth", truth.size, own, exact));
         rows.push(vec![caption.to_string(), format!("{rms:.4}"), format!("{:.0}", bytes as f64 / 1024.0)]);
         found.push((rms, bytes as f64 / 1024.0));
     }
@@ -67,8 +67,8 @@ fn area(cx: &Context) -> anyhow::Result<Made> {
         Measure::info("PCSS: error", found[0].0, "rms"),
         Measure::info("Burley: error", found[1].0, "rms"),
     ];
-    made.note = "Truth sends rays to all of the lamp from each pixel's centre, and so the maps are asked at one place a pixel. Steps between the maps' \
-                 shadows are what few maps leave."
+    made.note = "Truth sends rays from each pixel's centre to the whole lamp, so the maps are looked up at one place per pixel, too. Few maps leave \
+                 visible steps between their shadows."
         .into();
     Ok(made)
 }

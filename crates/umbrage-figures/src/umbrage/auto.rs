@@ -1,4 +1,4 @@
-//! Our own: what the default is made of, and what it costs, against rays.
+//! Umbrage's own: the parts of the default and its cost, compared with rays.
 
 use super::judge::{Error, Judge};
 use super::methods::row;
@@ -32,14 +32,14 @@ const STAGES: [(&str, Make); 14] = [
 /// The best mixture of the papers' parts.
 pub(super) const MIX: &str = "wang-molnar94,stored=midpoint,pattern=tent";
 
-/// So many recipes of the ladder, the first, are controls.
+/// The number of recipes at the head of the ladder that are controls.
 const CONTROLS: usize = 2;
 
-/// A camera of 4 × 4 samples for each pixel, to see which surfaces it holds. One look-up is made for each of them.
+/// A camera of 4 × 4 samples per pixel, to see which surfaces the pixel holds. One look-up is made for each of them.
 pub(super) const SAMPLED: Frame =
     Frame { axis: 4, stochastic: false, every_sample: false, smooth: false, seed: 0, number: 0 };
 
-/// What else is shown of it: name, recipe, and how the camera looks.
+/// Further variants of the default: name, recipe, and how the camera samples.
 const BESIDE: [(&str, &str, Frame); 4] = [
     ("auto, the camera with 4 × 4 samples", "auto", SAMPLED),
     ("and eight lines", "auto,across=8", SAMPLED),
@@ -52,8 +52,8 @@ const LADDER: [(&str, &str); 7] = [
     ("Woo 1992", "woo92"),
     ("midpoints, tangent plane, a tent: the papers' best mixture", MIX),
     ("facets: two planes, one place", "auto,fine=1,across=1"),
-    ("and four lines across the pixel, whose edges are looked for", "auto,fine=1"),
-    ("and 4 × 4 samples where one plane does not do, edges halfway", "auto,slots=2"),
+    ("and four lines across the pixel, with edges searched for", "auto,fine=1"),
+    ("and 4 × 4 samples where one plane is not enough, edges halfway", "auto,slots=2"),
     ("and links of 16 slots: auto", "auto"),
     ("and eight lines", "auto,across=8"),
 ];
@@ -73,8 +73,8 @@ pub const SHOWN: Figure = Figure {
     id: "U-auto",
     paper: Paper::Umbrage,
     title: "The default beside a paper's map, and beside rays",
-    claim: "Edges, contacts and thin shadows as many rays see them, from one small map without a bias.",
-    look: "the enlarged edge and the contact, beside 256 rays a pixel; and every slat of the chairs.",
+    claim: "One small map without a bias gives edges, contacts and thin shadows as many rays see them.",
+    look: "the enlarged edge and the contact, beside 256 rays per pixel; and every slat of the chairs.",
     make: shown,
 };
 
@@ -87,7 +87,7 @@ fn shown(cx: &Context) -> anyhow::Result<Made> {
         found.push((judge.error(&picture), bytes));
         made.panels.push(shadow_panel(id, caption, &picture).with("recipe", recipe).against("truth"));
         let (own, truth) = (&picture.shadow[0], &judge.truth().shadow[0]);
-        made.panels.push(error_panel(&format!("{id}-error"), "Less truth", picture.size, own, truth));
+        made.panels.push(error_panel(&format!("{id}-error"), "Minus truth", picture.size, own, truth));
         made.panels.push(zoomed(&format!("{id}-zoom"), "Enlarged", &picture, MIDDLE, PART));
     }
     made.panels.push(truth_panel(judge.truth()));
@@ -109,7 +109,7 @@ fn shown(cx: &Context) -> anyhow::Result<Made> {
         Measure::info("auto: kilobytes", found[1].1 * texels / 1024.0, "KB"),
         Measure::info("Woo: kilobytes", found[0].1 * texels / 1024.0, "KB"),
     ];
-    made.note = "One look-up for each pixel; truth is the mean of 256 rays.".into();
+    made.note = "There is one look-up per pixel; truth is the mean of 256 rays.".into();
     Ok(made)
 }
 
@@ -117,7 +117,7 @@ pub const LADDER_OF_PARTS: Figure = Figure {
     id: "U-auto-ladder",
     paper: Paper::Umbrage,
     title: "What each part of the default adds",
-    claim: "Without a bias, one small map of facets comes closer to truth than sixteen exact rays a pixel.",
+    claim: "Without a bias, one small map of facets comes closer to truth than sixteen exact rays per pixel.",
     look: "the error falling from part to part, in the end below that of sixteen rays.",
     make: ladder,
 };
@@ -165,8 +165,8 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
     rows.push(several("pixels of several surfaces too: auto", &found[auto]));
     rows.push(several("pixels of several surfaces too: auto, the camera with 4 × 4 samples", &beside[0]));
     rows.push(several("and eight lines", &beside[1]));
-    rows.push(with_mean("truth: half of its rays less the other half", noise.clone()));
-    rows.push(with_mean("auto: bytes for each texel", bytes.clone()));
+    rows.push(with_mean("truth: half of its rays minus the other half", noise.clone()));
+    rows.push(with_mean("auto: bytes per texel", bytes.clone()));
     made.tables.push(Table { name: "errors".into(), head, rows });
     let rms = |step: usize| mean(found[step].iter().map(|error| error.rms));
     let ray = mean(exact.iter().map(|error| error.rms));
@@ -224,8 +224,8 @@ fn ladder(cx: &Context) -> anyhow::Result<Made> {
         Measure::info("papers' best mixture: error, mean of all scenes", rms(1), "rms"),
         Measure::info("one exact ray: error, mean of all scenes", ray, "rms"),
     ];
-    made.note = "Judged are pixels all of whose samples see one surface that faces the light, and in lines that say so those that see several, too; truth is \
-                 the mean of 256 rays, and no parameter is set for a scene. One look-up is made for each pixel, or for each surface that a camera of \
+    made.note = "Errors are those of pixels all of whose samples see one surface that faces the light; lines that say so include pixels that see several. \
+                 Truth is the mean of 256 rays, and no parameter is set for a scene. One look-up is made for each pixel, or for each surface that a camera of \
                  4 × 4 samples sees in it."
         .into();
     Ok(made)
@@ -236,7 +236,7 @@ pub const BYTES: Figure = Figure {
     paper: Paper::Umbrage,
     title: "Error against memory",
     claim: "A map of facets is more exact than a depth map of many times its bytes.",
-    look: "how many bytes a depth map needs for the error that a map of facets has.",
+    look: "how many bytes a depth map needs to reach the error of a map of facets.",
     make: bytes,
 };
 
@@ -292,6 +292,6 @@ fn bytes(cx: &Context) -> anyhow::Result<Made> {
         Measure::at_most("4 × 4 over 1 × 1 at 512²: error", auto.1 / found[1][at_512].1, "times", 0.8)
             .full_size(cx.quick),
     ];
-    made.note = "Bytes are all that a map holds, tables and directories included.".into();
+    made.note = "Bytes count all that a map holds, tables and directories included.".into();
     Ok(made)
 }

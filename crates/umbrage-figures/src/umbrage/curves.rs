@@ -1,4 +1,4 @@
-//! Our own curves: false shadow against bias (D-9), and noise against the number of samples (D-12).
+//! Umbrage's own curves: false shadow against bias (D-9), and noise against the number of samples (D-12).
 
 use crate::figure::{Context, Figure, Paper};
 use glam::{DVec3, UVec2, Vec2, Vec3};
@@ -18,7 +18,7 @@ pub const ACNE: Figure = Figure {
     id: "U-acne",
     paper: Paper::Umbrage,
     title: "False shadow against bias",
-    claim: "A tilted plane shadows itself as the closed form of D-9 says, one axis or two.",
+    claim: "A tilted plane shadows itself as the closed form of D-9 predicts, whether it is tilted along one axis or two.",
     look: "the measured points on the predicted curve, for one axis and for two.",
     make: acne,
 };
@@ -37,7 +37,7 @@ fn acne(cx: &Context) -> anyhow::Result<Made> {
     let mut plot = Plot::new(
         "A plane tilted 60°",
         Axis::linear("bias, depth steps along the slope"),
-        Axis::linear("share in false shadow"),
+        Axis::linear("fraction in false shadow"),
     );
     let mut worst = 0.0f64;
     for (name, azimuth) in
@@ -84,12 +84,12 @@ pub const NOISE: Figure = Figure {
     id: "U-noise",
     paper: Paper::Umbrage,
     title: "Noise against the number of samples",
-    claim: "Jitter falls as N^−¾ across an oblique edge, independent samples as N^−½ (D-12).",
+    claim: "Across an oblique edge the noise of jittered samples falls as N^−¾, that of independent samples as N^−½ (D-12).",
     look: "the two slopes: jittered samples fall more steeply than independent ones.",
     make: noise,
 };
 
-/// Rms error of a pattern's share of a half-plane, over many places of an oblique edge.
+/// Rms error of a pattern's estimate of a half-plane, over many places of an oblique edge.
 fn error<P: Pattern>(cx: &Context, pattern: &P, region: &Footprint, exact: &dyn Fn(f32) -> f64, rounds: u32) -> f64 {
     let direction = Vec2::from_angle(0.41);
     let sum: f64 = (0..rounds)
@@ -107,7 +107,7 @@ fn error<P: Pattern>(cx: &Context, pattern: &P, region: &Footprint, exact: &dyn 
 
 fn noise(cx: &Context) -> anyhow::Result<Made> {
     let rounds = cx.pick(20_000, 4000);
-    // A slanted quadrilateral inside a square box, so that (d) has something to be inside of.
+    // A slanted quadrilateral inside a square box, so that (d) differs from the box.
     let square = Footprint::boxed(Vec2::splat(32.0), Vec2::splat(10.0));
     let slanted =
         Footprint::around([Vec2::new(28.0, 22.0), Vec2::new(42.0, 24.0), Vec2::new(36.0, 42.0), Vec2::new(22.0, 38.0)]);
@@ -149,7 +149,7 @@ fn noise(cx: &Context) -> anyhow::Result<Made> {
         Measure::at_most("16 samples: (c) over (a)", series[2].1[1].1 / series[0].1[1].1, "ratio", 1.0),
     ];
     let mut plot =
-        Plot::new("Error of a share across an oblique edge", Axis::log("samples"), Axis::log("rms error, share"));
+        Plot::new("Error of the fraction across an oblique edge", Axis::log("samples"), Axis::log("rms error"));
     for (name, points) in series {
         plot = plot.add(Series::line(name, points));
     }

@@ -1,4 +1,4 @@
-//! What each engine's default bias does to one scene, in one unit.
+//! The effect of each engine's default bias on one scene, in one unit.
 
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::panels::{error_panel, shadow_panel, truth_panel};
@@ -18,8 +18,8 @@ pub const BIAS: Figure = Figure {
     id: "U-bias",
     paper: Paper::Umbrage,
     title: "Every engine's default bias on one scene",
-    claim: "Each default is another bias in world units, and none of them is right for a scene that it was not made for.",
-    look: "the engines' dots beside the curve of slope-scaled biases: stripes upward, detached shadows to the right.",
+    claim: "Each default is a different bias in world units, and none of them is right for a scene that it was not made for.",
+    look: "the engines' dots beside the curve of slope-scaled biases: higher dots have more false shadow, dots farther right more detached shadows.",
     make: bias,
 };
 
@@ -42,7 +42,7 @@ impl Shadow for ByEngine<'_> {
     }
 }
 
-/// An engine's default bias for a receiver: what it gives at least. None for a surface that faces away.
+/// An engine's default bias for a receiver, at its smallest. None for a surface that faces away.
 fn default_of(engine: Engine, map: &Tiled, receiver: &Receiver) -> TriedBias {
     let given = in_world(engine, umbrage_depth::DepthMap::view(map), receiver).unwrap_or(WorldBias::ZERO);
     TriedBias { constant: given.constant, slope: given.slope, normal: given.normal }
@@ -91,7 +91,7 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         let name = engine.name();
         made.panels.push(shadow_panel(name, about.title, &picture).against("truth"));
         let (own, exact) = (&picture.shadow[0], &truth.shadow[0]);
-        made.panels.push(error_panel(&format!("{name}-error"), "Less truth", truth.size, own, exact));
+        made.panels.push(error_panel(&format!("{name}-error"), "Minus truth", truth.size, own, exact));
     }
     let head = [
         "default of",
@@ -99,7 +99,7 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         "constant, world",
         "slope, texels",
         "normal, world",
-        "all, world along the axis",
+        "total, world along the axis",
         "false shadow, %",
         "false light, %",
     ];
@@ -116,7 +116,7 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         (100.0 * shares.false_light, 100.0 * shares.false_shadow)
     });
     made.plots.push(("trade".into(), plot.add(Series::line("slope-scaled, 0 to 3 texels", curve.collect())).svg()));
-    // None is right: false shadow, or more false light than the filter leaves by itself.
+    // None is right: each leaves false shadow, or more false light than the filter does by itself.
     let bare = trial.shares(BiasKind::Constant, 0.0);
     let right =
         found.iter().filter(|(_, shares)| shares.false_shadow < 0.005 && shares.false_light - bare.false_light < 0.005);
@@ -132,8 +132,10 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         Measure::info("slope-scaled bias of the filter's half: false light", best.false_light, "share"),
         Measure::at_most("auto: pixels that are wrong by more than a half", wrong, "share", 0.01).full_size(cx.quick),
     ];
-    made.note = "Every engine's default bias over one map, under one filter of nine texels: engines' own filters differ. One unit of the scene is taken for one of the \
-                 engine's, a metre in most; the room is 24 across. The numbers are those of the receiver in the middle; each pixel has its own."
+    made.note = "Every engine's default bias is applied over one map, under one filter of nine texels: engines' own filters differ. One unit of the scene is \
+        taken for \
+                 one of the engine's, which is a metre in most; the room is 24 units across. The biases in the table are those of the receiver in the middle; \
+                 each pixel has its own."
         .into();
     Ok(made)
 }

@@ -1,4 +1,4 @@
-//! The named faults of one scene under one method after the other: what a bias buys and what it costs.
+//! The named faults of one scene under several methods: what a bias cures and what it costs.
 
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::masks::{shadow_grid, value};
@@ -17,8 +17,8 @@ pub const FAULTS: Figure = Figure {
     id: "U-faults",
     paper: Paper::Umbrage,
     title: "One board, every fault by name",
-    claim: "A larger bias trades acne for detachment; the tangent plane needs neither.",
-    look: "the percentage-closer pictures: as the bias grows, acne goes and detachment comes.",
+    claim: "A larger bias trades acne for detachment; comparison with the tangent plane has neither.",
+    look: "the percentage-closer pictures: as the bias grows, acne disappears and detachment appears.",
     make: table,
 };
 
@@ -77,7 +77,7 @@ fn numbers(found: &Faults) -> [f64; 7] {
     ]
 }
 
-/// A fault's map as colours; `scale` is the value that is drawn as the strongest.
+/// A fault's map as colours; `scale` is the value drawn in the strongest colour.
 fn map(name: &str, fault: &Fault, scale: f32, size: UVec2) -> Panel {
     let pixels = fault.map.iter().map(|v| heat(v / scale)).collect();
     Panel::rgb(name, name, size, pixels).with("strongest", scale).role(Role::Error)
@@ -165,7 +165,7 @@ fn table(cx: &Context) -> anyhow::Result<Made> {
         ),
     ];
     made.note =
-        "Acne and leaks are looked for away from truth's edges; detachment is the lit gap behind the board's foot."
+        "Acne and leaks are measured away from truth's edges; detachment is the lit gap behind the board's foot."
             .into();
     Ok(made)
 }

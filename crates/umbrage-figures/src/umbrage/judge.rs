@@ -1,4 +1,4 @@
-//! How far a recipe's picture is from many rays: what the default is judged by.
+//! The error of a recipe's picture against many rays, by which the default is judged.
 
 use crate::figure::Context;
 use crate::stage::masks::{shadow_grid, value};
@@ -12,7 +12,7 @@ use umbrage_sample::Key;
 use umbrage_scene::gallery::Make;
 use umbrage_shadow::{Shadow, same_length};
 
-/// Surfaces that the light meets at a lower cosine are not judged.
+/// Surfaces whose cosine to the light is lower are not judged.
 const FACING: f32 = 0.02;
 
 /// A picture against many rays per pixel.
@@ -20,9 +20,9 @@ const FACING: f32 = 0.02;
 pub(super) struct Error {
     /// Root mean square over pixels that see one surface, all of it facing the light.
     pub rms: f64,
-    /// The same over all pixels whose surfaces face the light, several in one pixel too.
+    /// The same over all pixels whose surfaces face the light, including pixels that see several.
     pub several: f64,
-    /// Share of the first pixels that are more than three pixels from truth's edges and wrong by more than a half.
+    /// Fraction of the first pixels that are more than three pixels from truth's edges and wrong by more than a half.
     pub wrong: f64,
 }
 
@@ -34,7 +34,7 @@ pub(super) struct Judge {
     many: Arc<Many>,
 }
 
-/// Many rays per pixel, and what they say of the pixels.
+/// Many rays per pixel, and which pixels are judged by them.
 struct Many {
     picture: Picture,
     /// Pixels that see one surface, all of it facing the light.
@@ -58,12 +58,12 @@ impl Judge {
         Self { set: Set::new((self.make)(), self.pixels, texels), many: self.many.clone(), ..*self }
     }
 
-    /// What many rays see.
+    /// The picture that many rays see.
     pub fn truth(&self) -> &Picture {
         &self.many.picture
     }
 
-    /// The picture by `axis` × `axis` exact rays a pixel, other ones than truth's.
+    /// The picture by `axis` × `axis` exact rays per pixel, none of them truth's.
     pub fn rays(&self, cx: &Context, axis: u32) -> Picture {
         let scene = &self.set.scene;
         let geometry = Geometry::new(scene, &scene.camera);

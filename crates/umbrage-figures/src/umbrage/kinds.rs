@@ -1,4 +1,4 @@
-//! Our own: the default on kinds of scenes: those that people have, and those that shadow maps find hard.
+//! Umbrage's own: the default on kinds of scenes, both common ones and those that are hard for shadow maps.
 
 use super::auto::{MIX, SAMPLED, mean};
 use super::judge::{Error, Judge};
@@ -12,8 +12,8 @@ use umbrage_scene::gallery::{self, Make};
 pub const COMMON: Figure = Figure {
     id: "U-auto-common",
     paper: Paper::Umbrage,
-    title: "The default on scenes as people have them",
-    claim: "Solids, balls, land, leaves, tubes, things that touch and scanned statues, with one setting and no rays.",
+    title: "The default on common kinds of scenes",
+    claim: "One setting, without rays, serves solids, balls, terrain, leaves, tubes, things that touch and scanned statues.",
     look: "the column of errors beside that of one exact ray and of the papers' best mixture.",
     make: |cx| figure(cx, &EASIER),
 };
@@ -21,8 +21,8 @@ pub const COMMON: Figure = Figure {
 pub const KINDS: Figure = Figure {
     id: "U-auto-kinds",
     paper: Paper::Umbrage,
-    title: "The default on what shadow maps find hard",
-    claim: "Fences, letters, stairs, louvres, cities, gears, hair, wheels, pergolas and rooms, with one setting and no rays.",
+    title: "The default on scenes that are hard for shadow maps",
+    claim: "One setting, without rays, serves fences, letters, stairs, louvres, cities, gears, hair, wheels, pergolas and rooms.",
     look: "the hair and the fences, in which one pixel holds several shadows.",
     make: |cx| figure(cx, &HARDER),
 };
@@ -30,19 +30,20 @@ pub const KINDS: Figure = Figure {
 /// A method's name, its recipe and the side of its map.
 type Column = (&'static str, &'static str, u32);
 
-/// Kinds of scenes that are reported together, and what is asked of them.
+/// Kinds of scenes that are reported together, and the bounds on their errors.
 struct Group {
-    /// A scene of each kind: the second of the gallery's two, of other shapes under another light than the one that may be looked at while a recipe is made.
+    /// A scene of each kind: the second of the gallery's two, with other shapes and another light than the first, which may be looked at while a recipe is
+    /// designed.
     stages: &'static [(&'static str, Make)],
     /// One is [`AUTO`].
     columns: &'static [Column],
-    /// The most that auto may be off by, by the side of its map.
+    /// The largest error that auto may have, by the side of its map.
     auto: &'static [(u32, f64)],
     /// The same for other columns.
     fitted: &'static [(Column, f64)],
-    /// The most that may be wrong, as [`Error::wrong`].
+    /// The largest fraction that may be wrong, as [`Error::wrong`].
     wrong: f64,
-    /// The least that an exact ray and the papers' best mixture are off by, which keeps the scenes hard.
+    /// The smallest errors of an exact ray and of the papers' best mixture, which keep the scenes hard.
     ray: f64,
     mix: f64,
 }
@@ -110,14 +111,14 @@ const FITTED_LINES: Column = ("auto, 512², fitted, eight lines", "auto,window=f
 const SEVERAL: [&str; 3] = [
     "auto, pixels of several surfaces too",
     "the same, the camera with 4 × 4 samples",
-    "truth: half of its rays less the other half",
+    "truth: half of its rays minus the other half",
 ];
 
 /// What was measured of one scene.
 struct Found {
     kind: &'static str,
     ray: f64,
-    /// Half of truth's rays less the other half.
+    /// Half of truth's rays minus the other half.
     noise: f64,
     /// Auto's error over pixels of several surfaces too, with one sample of the camera and with 4 × 4.
     several: [f64; 2],
@@ -133,8 +134,9 @@ fn figure(cx: &Context, group: &Group) -> anyhow::Result<Made> {
     }
     made.tables.push(table(group, &found));
     made.measures = measures(cx, group, &found);
-    made.note = "Judged as in U-auto-ladder. \"Wrong\" is the share of pixels more than three pixels from truth's edges that are off by more than a half; a \
-                 bound on the exact ray's own error keeps the scenes as hard as they are meant to be. Each mean is over pixels of one surface, but in the columns that say so. No number of the recipe was chosen on these scenes."
+    made.note = "Errors are judged as in U-auto-ladder. \"Wrong\" is the fraction of pixels more than three pixels from truth's edges that are off by more than a \
+                 half; a bound on the exact ray's own error keeps the scenes as hard as they are meant to be. Each mean is over pixels of one surface, except \
+                 in the columns that say otherwise. No number of the recipe was chosen on these scenes."
         .into();
     Ok(made)
 }
@@ -151,11 +153,11 @@ fn measured(cx: &Context, group: &Group, kind: &'static str, make: Make, made: &
         if (recipe, side) == AUTO {
             let (own, truth) = (&picture.shadow[0], &judge.truth().shadow[0]);
             made.panels.push(shadow_panel(kind, kind, &picture).with("recipe", recipe));
-            made.panels.push(error_panel(&format!("{kind}-error"), "Less truth", picture.size, own, truth));
+            made.panels.push(error_panel(&format!("{kind}-error"), "Minus truth", picture.size, own, truth));
             made.panels.push(shadow_panel(&format!("{kind}-truth"), "Ray-traced", judge.truth()).role(Role::Truth));
         }
     }
-    // What rays see is the same for every size of map.
+    // The ray-traced truth is the same for every size of map.
     let ray = judge.error(&judge.set.truth_points(cx, &Frame::CENTRES)).rms;
     let several =
         [Frame::CENTRES, SAMPLED].iter().map(|frame| Ok(judge.error(&judge.by(cx, AUTO.0, frame)?.0).several));
@@ -185,7 +187,7 @@ fn table(group: &Group, found: &[Found]) -> Table {
     rows.push(row("mean", std::iter::once(mean_ray(found)).chain(errors)));
     let names = group.columns.iter().map(|column| column.0);
     let head =
-        ["error, rms", "one exact ray"].into_iter().chain(names).chain(["wrong", "bytes a texel"]).chain(SEVERAL);
+        ["error, rms", "one exact ray"].into_iter().chain(names).chain(["wrong", "bytes per texel"]).chain(SEVERAL);
     Table { name: "kinds".into(), head: head.map(String::from).collect(), rows }
 }
 

@@ -1,4 +1,4 @@
-//! Our own: every method on every scene, fault by named fault.
+//! Umbrage's own: every method on every scene, with each fault by name.
 
 use super::methods::{self, ENGINES, Judged, METHODS, Method, PREFILTERED, PUBLISHED, index, judge};
 use super::sheet::Sheet;
@@ -12,7 +12,7 @@ use umbrage_scene::gallery::{self, Make};
 /// One number of a judgement.
 type Fault = fn(&Judged) -> f64;
 
-/// What each scene is judged with: the papers' methods and our own, then prefiltered maps, then engines.
+/// The methods that are judged on each scene: the papers' and Umbrage's own, then prefiltered maps, then engines.
 const ALL: usize = METHODS.len() + PREFILTERED.len() + ENGINES.len();
 
 fn all() -> impl Iterator<Item = &'static Method> {
@@ -23,8 +23,9 @@ pub const PRESETS: Figure = Figure {
     id: "U-presets",
     paper: Paper::Umbrage,
     title: "All presets, all scenes, every fault by name",
-    claim: "No published way to compare depths and no engine's default is free of false shadow and leaks on every scene; which fault each one has is a property of the method.",
-    look: "the columns of the picture: a method has no fault only where all of its column is grey.",
+    claim: "No published comparison of depths and no engine's default is free of false shadow and leaks on every scene; which fault each one has is a property \
+        of the method.",
+    look: "the columns of the picture: a method is free of faults only if its whole column is grey.",
     make: presets,
 };
 
@@ -53,7 +54,7 @@ const MOST_LEAK: f64 = 0.02;
 fn presets(cx: &Context) -> anyhow::Result<Made> {
     let (pixels, texels, cell) = (cx.pick(256, 96), cx.pick(512, 256), 96);
     let mut found = vec![[Judged::default(); STAGES.len()]; ALL];
-    // Two sheets: papers and our own; what filters its map, and engines.
+    // Two sheets: the papers' and Umbrage's own methods; prefiltered maps and engines.
     let sheet = |methods: &[&Method]| {
         let mut sheet = Sheet::new(methods.len() as u32 + 1, STAGES.len() as u32, cell);
         sheet.legend();
@@ -78,7 +79,7 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
             let picture = set.by(cx, recipe, &Frame::CENTRES)?;
             let judged = judge(cx, &picture, &truth);
             found[method][stage] = judged;
-            // Of surfaces turned away from the light no shading asks.
+            // Shading never looks up surfaces turned away from the light.
             let asked = |i: usize| truth.facing[0][i] > 0.05;
             let (own, exact) = (&picture.shadow[0], &truth.shadow[0]);
             let apart = (0..own.len()).map(|i| heat(if asked(i) { own[i] - exact[i] } else { 0.0 }));
@@ -111,7 +112,7 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
         .into_iter()
         .zip([("matrix", "every method"), ("matrix-others", "prefiltered maps and engines' defaults")])
     {
-        let caption = format!("Every scene (rows) by {whose} (columns), less truth");
+        let caption = format!("Every scene (rows) by {whose} (columns), minus truth");
         made.panels.push(Panel::rgb(name, &caption, sheet.size, sheet.pixels).role(Role::Error));
     }
     let worst = |name: &str, of: Fault, solids: bool| {
@@ -185,11 +186,17 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
         ));
     }
     made.measures = measures;
-    made.note = "In the pictures orange is too dark, false shadow, and blue too light, a leak; a number is written where it is more than counts as none. \
-                 Surfaces turned away from the light are left grey. False shadow is looked for on lit surfaces that face the light, leaks on shadowed ones, both off truth's edges; the error is \
-                 that of every wholly covered pixel. Leak area is the share of those shadowed pixels that have a twentieth of the light or more: light that variance shadow maps let through is too faint to count as a leak, but wide. Midpoints in Burley's cone are a mix that nobody published. \
-                 Engines' defaults have their own kernels and biases, but the maps of all others; three.js casts with back faces, and sheets with both sides. One unit of a scene is taken for one of the \
-                 engine's, and the light's near and far planes for those that the engine would choose. Soft methods are judged against the hard truth of a point light. Maps are 512², a pixel is asked once."
+    made.note = "In the pictures orange is too dark, which is false shadow, and blue too light, which is a leak; numbers are written where a fault exceeds the \
+        bound below which a scene counts as free of it. \
+                 Surfaces turned away from the light are left grey. False shadow is measured on lit surfaces that face the light, leaks on shadowed ones, both \
+                 away from truth's edges; the error is \
+                 that of every wholly covered pixel. Leak area is the fraction of those shadowed pixels that receive a twentieth of the light or more: the \
+                 light that variance shadow maps let through is too faint to count as a leak, but wide. Midpoints in Burley's cone are an unpublished \
+                 combination. \
+                 Engines' defaults use their own kernels and biases, but the same maps as the other methods; three.js casts with back faces, and sheets with \
+                 both sides. One unit of a scene is taken for one of the \
+                 engine's, and the light's near and far planes for those that the engine would choose. Soft methods are judged against the hard truth of a \
+                 point light. Maps are 512², with one look-up per pixel."
         .into();
     Ok(made)
 }

@@ -1,4 +1,4 @@
-//! Our own: every method beside every other, against map size and under low light.
+//! Umbrage's own: all methods compared, against map size and under low light.
 
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::masks::{acne, leak, leak_area, value};
@@ -32,14 +32,14 @@ pub(super) const METHODS: [Method; 11] = [
     ("auto: facets, two planes", "auto"),
 ];
 
-/// So many of them, the first, are published as such.
+/// The number of methods at the head of the list that are published as such.
 pub(super) const PUBLISHED: usize = 7;
 
-/// Maps that are filtered before they are asked.
+/// Maps that are filtered before they are looked up.
 pub(super) const PREFILTERED: [Method; 5] =
     [("vsm", "vsm"), ("esm", "esm"), ("evsm2", "evsm2"), ("evsm4", "evsm4"), ("msm", "msm")];
 
-/// What engines do when nobody sets anything.
+/// Engines' default filters.
 pub(super) const ENGINES: [Method; 10] = [
     ("three-pcf", "three-pcf"),
     ("babylon-none", "babylon-none"),
@@ -58,12 +58,12 @@ pub(super) fn index(name: &str) -> usize {
     METHODS.iter().position(|method| method.0 == name).unwrap_or(METHODS.len())
 }
 
-/// What one picture is judged by.
+/// The errors by which a picture is judged.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Judged {
     pub acne: f64,
     pub leak: f64,
-    /// The share of the pixels where leaks are looked for that have a twentieth of the light or more.
+    /// The fraction of the pixels where leaks are looked for that receive a twentieth of the light or more.
     pub area: f64,
     pub rms: f64,
 }
@@ -77,7 +77,7 @@ pub(super) fn judge(cx: &Context, picture: &Picture, truth: &Picture) -> Judged 
     let seen: Vec<bool> = truth.share.iter().zip(&truth.facing[0]).map(|(s, f)| *s == 1.0 && *f > 0.05).collect();
     Judged {
         acne: acne(picture, truth, border(cx), |_| true),
-        // Beside the soft edges that filters are made for; what contacts leak lies farther in.
+        // Away from the soft edges that filters are made for; leaks at contacts lie farther in.
         leak: leak(picture, truth, cx.pick(2, 1)),
         area: leak_area(picture, truth, cx.pick(2, 1), 0.05),
         rms: value(metrics::rms(&picture.shadow[0], &truth.shadow[0], &seen)),
@@ -88,8 +88,8 @@ pub const SIZES: Figure = Figure {
     id: "U-sizes",
     paper: Paper::Umbrage,
     title: "Every method on the table, against map size",
-    claim: "What each method needs of a map, and what it leaves wrong however large the map is.",
-    look: "where each curve levels off: that is what a larger map will not mend.",
+    claim: "Each method needs a map of some size, and leaves some error however large the map is.",
+    look: "where each curve levels off: no larger map removes that error.",
     make: sizes,
 };
 
@@ -111,7 +111,7 @@ fn sizes(cx: &Context) -> anyhow::Result<Made> {
                 made.panels
                     .push(shadow_panel(&format!("m{method}"), name, &picture).with("map", "512²").against("truth"));
                 let (own, exact) = (&picture.shadow[0], &truth.shadow[0]);
-                made.panels.push(error_panel(&format!("m{method}-error"), "Less truth", truth.size, own, exact));
+                made.panels.push(error_panel(&format!("m{method}-error"), "Minus truth", truth.size, own, exact));
             }
         }
         if side == 512 {
@@ -142,9 +142,9 @@ fn sizes(cx: &Context) -> anyhow::Result<Made> {
         }
         plot.svg()
     };
-    made.plots.push(("error".into(), curve("Error against truth", "rms share of shadow", &|one| one.0.rms)));
-    made.plots.push(("false-shadow".into(), curve("False shadow (M2)", "share", &|one| one.0.acne)));
-    made.plots.push(("leak".into(), curve("Leak (M8)", "share", &|one| one.0.leak)));
+    made.plots.push(("error".into(), curve("Error against truth", "rms of the fraction in shadow", &|one| one.0.rms)));
+    made.plots.push(("false-shadow".into(), curve("False shadow (M2)", "fraction", &|one| one.0.acne)));
+    made.plots.push(("leak".into(), curve("Leak (M8)", "fraction", &|one| one.0.leak)));
     made.plots.push(("gap".into(), curve("Lit gap behind a leg (M7)", "world units", &|one| one.1)));
     let head = ["method", "map", "error, rms", "false shadow", "leak", "gap, world"].map(String::from).to_vec();
     let rows = METHODS.iter().zip(&found).flat_map(|((name, _), row)| {
@@ -190,8 +190,8 @@ fn sizes(cx: &Context) -> anyhow::Result<Made> {
     ];
     made.note = "All biases are 3 to 4 texels, so that they shrink in the world as the map grows. Reeves' regions are as wide as three pixels of the \
                  picture and do not shrink with them: on large maps they reach farther over the floor than so small a bias allows for (D-9), and \
-                 false shadow rises. With the bias held at the world units that it has on 512² it does not, as the first plot shows; but that bias detaches \
-                 shadows as far on every map. Pictures and truth are asked at the same points, one a pixel."
+                 false shadow rises. With the bias held at the world units that it has on 512², false shadow does not rise, as the first plot shows; but \
+                 that bias detaches shadows equally far on every map. Pictures and truth are sampled at the same points, one per pixel."
         .into();
     Ok(made)
 }
@@ -209,7 +209,7 @@ fn two_biases(sizes: &[u32], shrinking: &[(Judged, f64)], constant: &[Judged]) -
     .svg()
 }
 
-/// How far behind the far side of the leg that the close-up shows the floor stays lit, in world units (M7); 60 for a leg that throws no shadow.
+/// How far the floor stays lit behind the far side of the leg in the close-up, in world units (M7); 60 for a leg that casts no shadow.
 fn gap(cx: &Context, close: &Set, shadow: &dyn Shadow) -> f64 {
     const FAR: f32 = 60.0;
     let foot = DVec3::new(-272.0, 0.0, 176.0);
@@ -225,7 +225,7 @@ pub const GRAZING: Figure = Figure {
     id: "U-grazing",
     paper: Paper::Umbrage,
     title: "Every method under a low sun",
-    claim: "Six degrees above the floor a texel's depth step is ten texels deep: what each method makes of it.",
+    claim: "With the sun six degrees above the floor, a texel's depth step is ten texels deep, and most methods fail.",
     look: "the floor under the low sun, where most methods leave stripes or nothing.",
     make: grazing,
 };
@@ -241,7 +241,7 @@ fn grazing(cx: &Context) -> anyhow::Result<Made> {
         let found = judge(cx, &picture, &truth);
         made.panels.push(shadow_panel(&format!("m{method}"), name, &picture).with("recipe", recipe).against("truth"));
         let (own, exact) = (&picture.shadow[0], &truth.shadow[0]);
-        made.panels.push(error_panel(&format!("m{method}-error"), "Less truth", truth.size, own, exact));
+        made.panels.push(error_panel(&format!("m{method}-error"), "Minus truth", truth.size, own, exact));
         rows.push(row(name, [found.rms, found.acne, found.leak]));
         all.push(found);
     }
@@ -259,8 +259,8 @@ fn grazing(cx: &Context) -> anyhow::Result<Made> {
         Measure::at_most("auto: false shadow", of("auto: facets, two planes").acne, "share", 0.0005),
         Measure::at_most("auto: leak", of("auto: facets, two planes").leak, "share", 0.0005),
     ];
-    made.note = "A bias that would end the false shadow of plain comparison here is longer than the things are thick. What is known of the surface \
-                 or of what lies behind it helps; a larger bias does not."
+    made.note = "A bias that would end the false shadow of plain comparison here is larger than the casters are thick. Knowing the surface or what \
+                 lies behind it helps; a larger bias does not."
         .into();
     Ok(made)
 }

@@ -1,4 +1,4 @@
-//! What no paper shows: methods side by side, fault by fault, on all scenes.
+//! Figures that no paper has: methods side by side, fault by fault, on all scenes.
 
 mod area;
 mod auto;

@@ -13,12 +13,13 @@ pub const OFFSETS: Figure = Figure {
     id: "U-offsets",
     paper: Paper::Umbrage,
     title: "Slope-scaled biases and normal offsets, by their amount",
-    claim: "Both end false shadow at an amount that follows from the filter's width alone, whatever the slope, where a constant bias has none; and both take light under what stands there.",
+    claim: "On every slope both end false shadow at the same amount, which follows from the filter's width alone; a constant bias has no such amount. Both \
+        leave false light at the foot of what stands there.",
     look: "where each curve of false shadow ends: at the same amount on every slope, but for the constant bias.",
     make: offsets,
 };
 
-/// Half of the filter's width, texels: nine texels that count alike.
+/// Half of the filter's width, texels: nine texels of equal weight.
 const HALF: f64 = 1.5;
 
 /// A kind of bias: its name, the recipe but for the amount, the amount's unit, and what ends false shadow by closed form, texels.
@@ -64,7 +65,7 @@ fn offsets(cx: &Context) -> anyhow::Result<Made> {
             let dark = || percent(|one| one.acne);
             acne = acne.add(Series::line(name, amounts.iter().copied().zip(dark()).collect()));
             trade = trade.add(Series::line(name, percent(|one| one.leak).zip(dark()).collect()));
-            // The constant bias is judged at what suffices for the one that is scaled.
+            // The constant bias is judged at the amount that suffices for the slope-scaled one.
             let amount = if formula.is_finite() { formula } else { 2.0 * HALF };
             let picture = set.by(cx, &recipe(kind, amount), &frame)?;
             let one = judge(cx, &picture, &truth);
@@ -74,7 +75,7 @@ fn offsets(cx: &Context) -> anyhow::Result<Made> {
                 let panel = shadow_panel(name, &format!("{name}, {amount:.2} texels"), &picture);
                 made.panels.push(panel.against("truth"));
                 let (own, exact) = (&picture.shadow[0], &truth.shadow[0]);
-                made.panels.push(error_panel(&format!("{name}-error"), "Less truth", truth.size, own, exact));
+                made.panels.push(error_panel(&format!("{name}-error"), "Minus truth", truth.size, own, exact));
             }
         }
         made.plots.push((format!("false-shadow-{stage}"), acne.svg()));
@@ -93,9 +94,17 @@ fn offsets(cx: &Context) -> anyhow::Result<Made> {
         });
         made.measures.push(Measure::info(&format!("{scene}: {name}, leak"), one.leak, "share"));
     }
-    made.note = "A filter of nine texels that count alike, whose texels lie up to 1.5 from its point on each axis: a slope-scaled bias of 3 texels covers what a plane changes over them, and a normal offset of \
-                 1.5 times the square root of 2. The slope is the steeper of a row's and a column's, as rasterisers take it, but of the receiver. A ten-thousandth of two covers the rounding of stored depths. \
-                 Leaks are looked for off truth's edges, so that what shadows lose at their casters' feet counts only where it is wide."
+    made.note = "The filter is nine texels of equal weight, which lie up to 1.5 texels from its centre on each axis: a slope-scaled bias of 3 texels covers the \
+        \
+        \
+        \
+        \
+        \
+        \
+        change of a plane's depth over them, and so does \
+                 a normal offset of 1.5 times the square root of 2. The slope is the steeper of the two along a row and a column, as rasterisers take it, but \
+                 that of the receiver. A constant bias of 0.0002 covers the rounding \
+                 of stored depths. Leaks are measured away from truth's edges, so that the light at casters' feet counts only where it is wide."
         .into();
     Ok(made)
 }

@@ -1,4 +1,4 @@
-//! A map larger than one wants in memory, looked up through a few pages (Reeves 1987, §3.3; R87-20).
+//! A map that is too large to keep in memory, looked up through a few pages (Reeves 1987, §3.3; R87-20).
 
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::masks::value;
@@ -21,8 +21,8 @@ pub const PAGING: Figure = Figure {
     id: "U-paging",
     paper: Paper::Umbrage,
     title: "A depth map of 16,384² through a few pages",
-    claim: "Camera order is local: a few pages of a map on disk serve a whole picture, and change no bit of it.",
-    look: "the table of pages that were read, by the order in which the picture is drawn.",
+    claim: "The order in which a camera looks texels up is local: a few pages of a map on disk serve a whole picture, and change no bit of it.",
+    look: "the table of pages read, by the order in which the picture is drawn.",
     make: paging,
 };
 
@@ -31,7 +31,7 @@ struct Temporary(std::path::PathBuf);
 
 impl Drop for Temporary {
     fn drop(&mut self) {
-        // What is left behind in the system's temporary folder is no fault of the figure.
+        // A file left behind in the system's temporary folder does not make the figure wrong.
         let _ = std::fs::remove_file(&self.0);
     }
 }
@@ -63,7 +63,7 @@ fn faults(path: &std::path::Path, pages: usize, order: &[glam::IVec2]) -> anyhow
     Ok(handle.faults())
 }
 
-/// The texels that the camera's pixels look at: by scan lines, by buckets of 16 × 16, at random.
+/// The texels that the camera's pixels look up: by scan lines, by buckets of 16 × 16, at random.
 fn orders(seen: &Picture, view: &View, key: Key) -> [Vec<glam::IVec2>; 3] {
     let width = seen.size.x as usize;
     let texel = |i: usize| {

@@ -1,4 +1,4 @@
-//! Many small pictures in rows and columns, with what they are written beside them and what is found in them written into them.
+//! Many small pictures in rows and columns, with their names written beside them and their faults written into them.
 
 use glam::{UVec2, Vec3};
 use umbrage_oracle::heat;
@@ -62,7 +62,7 @@ impl Sheet {
         }
     }
 
-    /// Text that is read over any picture.
+    /// Text that is legible over any picture.
     fn boxed(&mut self, at: UVec2, text: &str, ink: Vec3) {
         let across = letters::width(text) + 2;
         for y in 0..letters::LINE {
@@ -82,7 +82,8 @@ impl Sheet {
         });
     }
 
-    /// Each pixel of a cell is the mean of the picture's pixels under it; a picture of other proportions leaves a bar below that is as dark as the paper.
+    /// Each pixel of a cell is the mean of the picture's pixels under it; a picture of other proportions leaves a bar below it that is as dark as the
+    /// background.
     pub fn place(&mut self, column: u32, row: u32, size: UVec2, picture: &[Vec3]) {
         let scale = f64::from(size.max_element()) / f64::from(self.cell);
         let span = |at: u32, most: u32| {
@@ -104,7 +105,7 @@ impl Sheet {
     }
 }
 
-/// The colours of errors, light enough to be read.
+/// The colours of errors, light enough to be legible.
 fn too_dark() -> Vec3 {
     heat(0.75)
 }

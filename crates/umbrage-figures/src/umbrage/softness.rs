@@ -1,4 +1,4 @@
-//! Our own: what filters make of lights of several sizes, against the light itself (EXT-1, EXT-4).
+//! Umbrage's own: filters for lights of several sizes, against the light itself (EXT-1, EXT-4).
 
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::panels::{error_panel, shadow_panel, truth_panel};
@@ -17,7 +17,7 @@ pub const SOFTNESS: Figure = Figure {
     id: "U-softness",
     paper: Paper::Umbrage,
     title: "Soft shadows against the size of the light",
-    claim: "A radius by the light's size gives an area light's own penumbra where one caster throws it.",
+    claim: "A radius computed from the light's size gives an area light's own penumbra where a single caster casts it.",
     look: "the widths of the penumbrae in the plot, beside the ray-traced ones.",
     make: softness,
 };
@@ -27,7 +27,7 @@ const RADII: [f64; 6] = [3.0, 6.0, 9.0, 12.0, 18.0, 24.0];
 const TANGENTS: [f64; 4] = [0.01, 0.02, 0.04, 0.08];
 /// The size that Burley's largest radius and the constant one are set to.
 const SET: f64 = 12.0;
-/// Height of the edge that throws the shadow; the floor is at 0.
+/// Height of the edge that casts the shadow; the floor is at 0.
 const HEIGHT: f64 = 51.0;
 
 /// The shadow's edge on the floor, for a penumbra of a whole width.
@@ -59,7 +59,7 @@ fn measure(cx: &Context, set: &Set, recipe: &str, edge: &Edge, exact: &Profile) 
     Ok(Found { width: width(&found), exact: width(exact), error: rms(&found, exact) })
 }
 
-/// What rays to the whole light say of an edge.
+/// An edge as rays to the whole light see it.
 fn by_rays(cx: &Context, set: &Set, edge: &Edge, light: f64) -> Profile {
     let geometry = Geometry::new(&set.scene, &set.scene.camera);
     edge.profile(cx, &set.disc_light(cx, &geometry, light))
@@ -90,11 +90,8 @@ fn softness(cx: &Context) -> anyhow::Result<Made> {
         "area light, predicted (D-16)",
         RADII.map(|r| (r, predict::DISC_EDGE_10_90 * whole(r))).to_vec(),
     ));
-    let mut errors = Plot::new(
-        "Error across the edge",
-        Axis::linear("radius of the light, world units"),
-        Axis::linear("rms error, share"),
-    );
+    let mut errors =
+        Plot::new("Error across the edge", Axis::linear("radius of the light, world units"), Axis::linear("rms error"));
     // Wide enough for the filters that are set for one size, too.
     let lamps = RADII.map(|radius| {
         let edge = edge(whole(radius.max(SET)));
@@ -114,7 +111,7 @@ fn softness(cx: &Context) -> anyhow::Result<Made> {
             for (radius, found) in RADII.iter().zip(&found) {
                 made.measures.push(near(&format!("lamp of radius {radius}: width over the area light's"), found));
             }
-            // The recipe as one types it first, which searches from the light's near plane on.
+            // The recipe as one first types it, which searches from the light's near plane.
             let (edge, exact) = &lamps[3];
             let plain = measure(cx, &set, &format!("burley,light={}", RADII[3]), edge, exact)?;
             let name = format!("lamp of radius {}, nothing else told: width over the area light's", RADII[3]);
@@ -146,16 +143,15 @@ fn softness(cx: &Context) -> anyhow::Result<Made> {
         made.panels.push(shadow_panel(stem, name, &picture).with("recipe", recipe).against("truth"));
         made.panels.push(error_panel(
             &format!("{stem}-error"),
-            &format!("{name}: less truth"),
+            &format!("{name}: minus truth"),
             picture.size,
             &picture.shadow[0],
             &truth.shadow[0],
         ));
     }
     made.panels.push(truth_panel(&truth).with("light's radius", SET));
-    made.note = "Widths are taken on the floor under the board's straight edge, 256 rays a point for the light \
-    itself. Set for one size and one height, all the filters agree; only the radius by the light's size \
-    follows."
+    made.note = "Widths are measured on the floor under the board's straight edge, for the light itself with \
+    256 rays per point. All the filters agree at the one size and height that they are set for; only the radius by the light's size follows other sizes."
         .into();
     Ok(made)
 }

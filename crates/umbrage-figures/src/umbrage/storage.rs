@@ -1,4 +1,4 @@
-//! What every map of the gallery takes: depths, a file of them, and facets.
+//! The memory that every map of the gallery takes: as depths, as a file of them, and as facets.
 
 use crate::figure::{Context, Figure, Paper};
 use glam::UVec2;
@@ -15,18 +15,18 @@ use umbrage_scene::{Scene, gallery};
 pub const STORAGE: Figure = Figure {
     id: "U-storage",
     paper: Paper::Umbrage,
-    title: "What a map of each scene takes, and why",
-    claim: "Facets in memory are smaller than a packed file of depths where facets are large and depths pack badly.",
+    title: "The memory that a map of each scene takes, and why",
+    claim: "Facets in memory are smaller than a compressed file of depths where facets are large and depths compress badly.",
     look: "the last column, which says why one storage is smaller than the other on each map.",
     make: storage,
 };
 
-/// What the nearest surfaces of a map take.
+/// The memory that the nearest surfaces of a map take.
 struct Sizes {
     name: String,
     raw: f64,
     tiled: f64,
-    /// A file of the depths, ZIP, which must be unpacked to be looked up.
+    /// A file of the depths, ZIP, which must be decompressed to be looked up.
     zip: f64,
     facets: f64,
     /// The default's map, with finer samples and links along edges.
@@ -64,13 +64,13 @@ impl Sizes {
         self.facets / self.zip
     }
 
-    /// What the map is like, which is why one is smaller than the other.
+    /// The kind of map, which explains why one is smaller than the other.
     fn reason(&self) -> &'static str {
         match (self.texels_per_facet < SMALL, self.packed < WELL) {
-            (true, true) => "small facets; depths pack well",
-            (true, false) => "small facets; depths pack badly",
-            (false, true) => "large facets; depths pack well",
-            (false, false) => "large facets; depths pack badly",
+            (true, true) => "small facets; depths compress well",
+            (true, false) => "small facets; depths compress badly",
+            (false, true) => "large facets; depths compress well",
+            (false, false) => "large facets; depths compress badly",
         }
     }
 
@@ -86,9 +86,9 @@ impl Sizes {
     }
 }
 
-/// Facets of fewer texels are small: of that many, a plane's numbers are no longer few.
+/// Facets of fewer texels count as small: for so few texels a plane's numbers are no saving.
 const SMALL: f64 = 32.0;
-/// Depths that take less than so many bytes each in a file pack well.
+/// Depths that take fewer bytes than this each in a file compress well.
 const WELL: f64 = 1.0;
 
 fn storage(cx: &Context) -> anyhow::Result<Made> {
@@ -111,17 +111,17 @@ fn storage(cx: &Context) -> anyhow::Result<Made> {
         "file, ZIP, KB",
         "facets, KB",
         "the default's, KB",
-        "texels for each facet",
-        "file, bytes for each texel",
+        "texels per facet",
+        "file, bytes per texel",
         "facets over file",
         "smaller",
-        "the map",
+        "kind of map",
     ];
     let rows = all.iter().map(Sizes::row).collect();
     made.tables.push(Table { name: format!("maps of {side}²"), head: head.map(String::from).to_vec(), rows });
     let mut plot = Plot::new(
         "A map of facets over a file of its depths",
-        Axis::log("bytes of the file for each texel with a surface"),
+        Axis::log("bytes of the file per texel with a surface"),
         Axis::log("bytes over bytes"),
     );
     for (name, small) in [("maps of small facets", true), ("maps of large facets", false)] {
@@ -156,8 +156,9 @@ fn storage(cx: &Context) -> anyhow::Result<Made> {
         ),
         Measure::at_most("facets over raw, the largest of all maps", most, "times", 1.0),
     ];
-    made.note = "Facets can be looked up as they are; the file must be unpacked into raw depths or pages first. Facets, tiles and the default's map are all that \
-                 they hold, tables and directories included; the file is a whole EXR."
+    made.note = "Facets can be looked up as they are; the file must first be decompressed into raw depths or pages. The sizes of facets, tiles and the \
+        default's \
+                 map count all that they hold, tables and directories included; that of the file is of a whole EXR file."
         .into();
     Ok(made)
 }

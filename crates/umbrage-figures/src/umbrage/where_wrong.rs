@@ -1,4 +1,4 @@
-//! Our own: where the default is wrong, enlarged, and what would mend it.
+//! Umbrage's own: enlargements of where the default is wrong, and what would mend it.
 
 use super::judge::Judge;
 use crate::figure::{Context, Figure, Paper};
@@ -12,7 +12,7 @@ pub const WHERE: Figure = Figure {
     id: "U-auto-where",
     paper: Paper::Umbrage,
     title: "The default's worst pixels, and why they are wrong",
-    claim: "What is left is at edges, gaps and hollows finer than the map's samples; three pixels from any edge nothing is wrong.",
+    claim: "The remaining errors are at edges, gaps and hollows finer than the map's samples; farther than three pixels from any edge nothing is wrong.",
     look: "the enlarged pixels: each is at an edge or a gap that is finer than the map's samples.",
     make: where_wrong,
 };
@@ -31,21 +31,21 @@ const CAUSES: [(&str, &str, u32); 4] = [
     ("lines across the pixel: 16", "auto,across=16", 1),
     ("samples in a texel: 8 × 8", "auto,fine=8,slots=8", 1),
     ("texels: a map four times as large", "auto", 2),
-    ("what a sample must be passed by: nothing", "auto,width-term=0,slope-term=0", 1),
+    ("the margin by which a sample must be passed: none", "auto,width-term=0,slope-term=0", 1),
 ];
 
-/// The enlarged part: one of so many of the picture's width.
+/// The width of the enlarged part: the picture's width over this.
 const PART: u32 = 16;
 /// Scenes whose worst pixel is shown.
 const SHOWN: usize = 5;
-/// An error of more than this is a pixel that one sees.
+/// A pixel with an error above this is visibly wrong.
 const SEEN: f32 = 0.25;
 
 fn where_wrong(cx: &Context) -> anyhow::Result<Made> {
     let (pixels, texels) = (cx.pick(512, 96), cx.pick(512, 256));
     let mut made = Made::default();
     let mut rows = Vec::new();
-    // Squared error by cause, the last what none of them mends, and how many pixels are far off.
+    // The squared error by cause, last the part that none of them mends, and the number of pixels that are far off.
     let mut total = [0.0; CAUSES.len() + 1];
     let (mut seen, mut judged, mut far) = (0u32, 0u32, 0u32);
     let mut worst = Vec::new();
@@ -95,7 +95,7 @@ fn where_wrong(cx: &Context) -> anyhow::Result<Made> {
         let width = own.size.x as usize;
         let at = DVec2::new((pixel % width) as f64 + 0.5, (pixel / width) as f64 + 0.5) / own.size.as_dvec2();
         made.panels.push(zoomed(name, &format!("auto: {name}"), own, at, PART).against(&format!("{name}-truth")));
-        made.panels.push(zoomed_error(&format!("{name}-error"), "Less truth", own, judge.truth(), at, PART));
+        made.panels.push(zoomed_error(&format!("{name}-error"), "Minus truth", own, judge.truth(), at, PART));
         made.panels.push(zoomed(&format!("{name}-truth"), "Ray-traced", judge.truth(), at, PART).role(Role::Truth));
     }
     made.measures = vec![
@@ -110,7 +110,8 @@ fn where_wrong(cx: &Context) -> anyhow::Result<Made> {
         ),
         Measure::info("squared error that smaller terms halve", share(3), "share"),
     ];
-    made.note = "A pixel's error counts for the change that leaves least of it, if that is less than half. The five scenes are those with the largest errors; \
+    made.note = "A pixel's error is attributed to the change that leaves the least of it, if that is less than half. The scenes are those with the largest \
+        errors; \
                  in the middle of each part is its worst pixel."
         .into();
     Ok(made)

@@ -1,4 +1,4 @@
-//! Wang & Molnar 1994, Figure 3: what a bias mends and what it costs.
+//! Wang & Molnar 1994, Figure 3: what a bias cures and what it costs.
 
 use super::ideas::{DARK, LIT, STORED, slope, those};
 use crate::figure::{Context, Figure, Paper};
@@ -21,7 +21,7 @@ pub const F3: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "The bias and its cost",
     claim: "A bias of half a depth step ends false shadow; it also moves every shadow away from its caster.",
-    look: "the gap between caster and shadow in the second plot, as wide as the bias makes it.",
+    look: "the gap between caster and shadow in the second plot, which is as wide as the bias makes it.",
     make: bias,
 };
 
@@ -46,7 +46,7 @@ fn floor(from: f64, to: f64, count: u32) -> Vec<SurfacePoint> {
     (0..count).map(|i| SurfacePoint::at(Vec3::new(at(i) as f32, 0.0, 0.0), Vec3::Y)).collect()
 }
 
-/// The share in false shadow of the floor before a leg, and the lit gap behind it in world units, by one map.
+/// The fraction of the floor in front of a leg that is in false shadow, and the lit gap behind it in world units, by one map.
 fn fault(cx: &Context, map: &Arc<Tiled>, bias: f64) -> (f64, f64) {
     let shadow = bind(presets::ordinary(Bias::World(bias as f32)).filter, map, cx.storage);
     let ask = |points: &[SurfacePoint]| {
@@ -133,7 +133,7 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
     let predicted =
         predicted.map(|bias| (bias, predict::expected_contact_gap(bias, THICK, elevation, Stored::First))).collect();
     let plot = |title, y| Plot::new(title, Axis::linear("bias, world units"), Axis::linear(y));
-    let acne = acne.into_iter().fold(plot("False shadow on the floor", "share in false shadow"), Plot::add);
+    let acne = acne.into_iter().fold(plot("False shadow on the floor", "fraction in false shadow"), Plot::add);
     let gaps = gaps.into_iter().fold(
         plot("The gap behind the leg", "lit gap, world units").add(Series::line("any map, D-10", predicted)),
         Plot::add,
@@ -148,7 +148,8 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         ],
         tables: vec![Table { name: "bias".into(), head, rows }],
         measures,
-        note: "Gaps and false shadow are means over eight places of the texels' borders. Where texels are too wide for the leg, the least bias that cleans the floor already parts the shadow from the foot."
+        note: "Gaps and false shadow are means over eight offsets of the texel grid. Where texels are too wide for the leg, the smallest bias that clears the \
+            floor of false shadow already detaches the shadow from the foot."
             .into(),
         ..Made::default()
     })
@@ -167,9 +168,13 @@ fn detached(cx: &Context) -> anyhow::Result<String> {
     let toward = map.view().toward_eye(DVec3::ZERO).truncate();
     let moved: Vec<DVec2> = kept.iter().map(|at| *at - toward * 15.0).collect();
     let diagram = slice
-        .outlined(Diagram::new("A leg 4 thick, light at 45°, bias 15", DVec2::new(-14.0, -8.0), DVec2::new(40.0, 22.0)))
-        .named(Mark::Dots(2.2), STORED, &kept, "kept depths")
-        .named(Mark::Dots(2.2), Ink::Series(3), &moved, "kept depths plus the bias")
+        .outlined(Diagram::new(
+            "A leg of thickness 4, light at 45°, bias 15",
+            DVec2::new(-14.0, -8.0),
+            DVec2::new(40.0, 22.0),
+        ))
+        .named(Mark::Dots(2.2), STORED, &kept, "stored depths")
+        .named(Mark::Dots(2.2), Ink::Series(3), &moved, "stored depths plus the bias")
         .named(Mark::Dots(2.6), LIT, &floor(those(&by_map, false)), "floor, lit")
         .named(Mark::Dots(2.6), DARK, &floor(those(&by_map, true)), "floor, in shadow")
         .draw(Mark::Dots(2.6), LIT, &below(those(&rays, false)))

@@ -1,4 +1,4 @@
-//! Wang & Molnar 1994, Figure 12 and §4.2: what small maps cost in faults and in virtual samples, and what pass 1 costs.
+//! Wang & Molnar 1994, Figure 12 and §4.2: what small maps cost in faults and in virtual samples, and what pass 1 costs in time.
 
 use super::table::{Foot, RAYS, SECOND, SHADED};
 use crate::figure::{Context, Figure, Paper};
@@ -15,7 +15,7 @@ use umbrage_sample::Key;
 use umbrage_scene::gallery;
 use umbrage_shadow::{Counters, ShadowMap, presets};
 
-/// Share of a picture's points that second depths compare on their tangent planes (M9).
+/// Fraction of a picture's points that second depths compare on their tangent planes (M9).
 fn virtual_share(cx: &Context, set: &Set, seen: &Picture, dark_backs: bool) -> anyhow::Result<f64> {
     let map = light_map(&SECOND.parse()?, &set.scene, &set.scene.lights[0].view);
     let points = points_of(seen);
@@ -29,7 +29,7 @@ pub const F12: Figure = Figure {
     id: "WM94-F12",
     paper: Paper::WangMolnar94,
     title: "Smaller and smaller maps, no bias",
-    claim: "As the map shrinks the picture degrades slowly: shadows leak more, and more pixels need virtual samples.",
+    claim: "As the map shrinks, the picture degrades slowly: shadows leak more, and more pixels need virtual samples.",
     look: "the small shadows, which leak first as the map shrinks.",
     make: degrade,
 };
@@ -58,7 +58,7 @@ fn degrade(cx: &Context) -> anyhow::Result<Made> {
         made.panels.push(
             shadow_panel(&format!("shadow-{texels}"), &format!("{map}: shadow alone"), &picture).against("truth"),
         );
-        let caption = format!("{map}, less truth");
+        let caption = format!("{map}, minus truth");
         made.panels.push(error_panel(
             &format!("error-{texels}"),
             &caption,
@@ -99,15 +99,15 @@ fn degrade(cx: &Context) -> anyhow::Result<Made> {
         3.0,
     ));
     let head = [
-        "texels a side",
+        "texels per side",
         "false shadow (M2)",
         "leak (M8)",
         "virtual samples (M9), backs left out",
         "virtual samples, backs too",
     ];
     made.tables.push(Table { name: "sizes".into(), head: head.map(String::from).to_vec(), rows });
-    made.note = "Virtual samples are counted where the surface faces the light. Backs, which are dark by their shading, are divided at every size alike \
-                 and take about .8 % of the picture: with them the first step is below the 1.4 asked for."
+    made.note = "Virtual samples are counted where the surface faces the light. On back faces, which shading darkens anyway, the nearby texels disagree \
+                 at every size alike, over about .8 % of the picture: with those counted, the growth of the first step is below the 1.4 that is required."
         .into();
     Ok(made)
 }
@@ -116,7 +116,7 @@ pub const COST: Figure = Figure {
     id: "WM94-cost",
     paper: Paper::WangMolnar94,
     title: "What second depths cost",
-    claim: "With culling pass 1 costs what first depths cost, and few pixels need virtual samples.",
+    claim: "With culling, pass 1 costs what first depths cost, and few pixels need virtual samples.",
     look: "the table: fragments of second depths beside those of first depths, with culling and without.",
     make: cost,
 };
@@ -181,11 +181,12 @@ fn cost(cx: &Context) -> anyhow::Result<Made> {
         "fragments of first depths",
         "with backs culled",
         "of second depths, fronts culled",
-        "virtual samples, share",
+        "virtual samples, fraction",
     ];
     made.tables.push(Table { name: "fragments".into(), head: head.map(String::from).to_vec(), rows });
-    made.note = "A closed surface has as many backs as fronts under every texel, so that culling leaves the same number of fragments to either \
-                 rule. Both are timed with their culling, all scenes together, as the table takes but a millisecond. First depths without culling \
+    made.note = "A closed surface has as many back faces as front faces under every texel, so that culling leaves the same number of fragments \
+                 to either rule. Both are timed with their culling and over all scenes together, as the table alone takes only a millisecond. First depths \
+                 without culling \
                  have twice the fragments: against those, culled second depths may take less than .7 of the time. Times are in timings.json."
         .into();
     Ok(made)

@@ -19,8 +19,8 @@ pub const F7: Figure = Figure {
     id: "WM94-F7",
     paper: Paper::WangMolnar94,
     title: "A solid thinner than a texel's depth step",
-    claim: "Second depths alone take a thin slab's first surface for its second; virtual samples tell them apart.",
-    look: "the lit side of the slab, dark in spots under plain comparison.",
+    claim: "Second depths alone mistake a thin slab's first surface for its second; virtual samples distinguish them.",
+    look: "the lit side of the slab, which is dark in spots under plain comparison.",
     make: thin,
 };
 
@@ -50,7 +50,7 @@ fn thin(cx: &Context) -> anyhow::Result<Made> {
             if texels == 128 {
                 let truth = set.truth_points(cx, &RAYS);
                 let (shadow, exact) = (&picture.shadow[0], &truth.shadow[0]);
-                let caption = format!("{caption} at 128², less truth");
+                let caption = format!("{caption} at 128², minus truth");
                 made.panels.push(error_panel(&format!("{name}-error"), &caption, truth.size, shadow, exact));
                 if name == "mixed" {
                     made.panels.push(shadow_panel("truth", "Ray-traced truth", &truth).role(Role::Truth));
@@ -61,8 +61,8 @@ fn thin(cx: &Context) -> anyhow::Result<Made> {
     let [never, mixed] = curves;
     let plot = Plot::new(
         "A slab 0.4 thick under 45°",
-        Axis::linear("texels a side"),
-        Axis::linear("false shadow on it, share"),
+        Axis::linear("texels per side"),
+        Axis::linear("false shadow on it, fraction"),
     )
     .add(Series::line("plain comparison", never))
     .add(Series::line("virtual samples", mixed));
@@ -74,8 +74,8 @@ pub const F9: Figure = Figure {
     id: "WM94-F9",
     paper: Paper::WangMolnar94,
     title: "A tangent plane that climbs past its occluder",
-    claim: "Where a curved surface is nearly edge-on to the light, virtual samples are wrong and plain comparison is right: they are asked \
-            only where it is divided.",
+    claim: "Where a curved surface is nearly edge-on to the light, virtual samples are wrong and plain comparison is right: they are used \
+            only where the nearby texels disagree.",
     look: "the band where the curved surface is nearly edge-on to the light.",
     make: steep,
 };
@@ -168,15 +168,23 @@ fn steep(cx: &Context) -> anyhow::Result<Made> {
         }
     }
     made.caveat = Some(
-        "Under the gallery's two small balls, four and a half units before the surface, the ratio stays below 3: texels are finer there than the gap \
-         over the plane's climb, so that most of either leak is at the umbra's edges, which both rules share. Proposed: a ratio of 3 where the occluder is \
+        "Under the gallery's two small balls, four and a half units in front of the surface, the ratio stays below 3: texels are fine there compared \
+         with the gap, so that the plane does not climb past the balls, and most of either leak is at the umbra's edges, which both rules share. Proposed: a \
+         ratio of 3 where the occluder is \
          nearer than a texel's width over N·L, as over the bar."
             .into(),
     );
-    made.note = "The pictures show the ball's shadow under the red bar in flat colours, without the cosine that hides it: bright on the ball is lit, dark is \
-                 in shadow, black is turned away from the light. What is bright within the bar's shadow is the leak. Leaks are counted on the ball in umbra where N·L is below ¼. The failure needs an occluder nearer than the plane climbs from texel to \
+    made.note = "The pictures show the ball's shadow under the red bar in flat colours, without the cosine that hides it: bright parts of the ball are lit, \
+                 dark ones are in shadow, and black ones face away from the light. What is bright within the bar's shadow is the leak. Leaks are counted on the \
+                 \
+                 \
+                 \
+                 \
+                 \
+                 \
+                 ball in umbra where N·L is below ¼. The failure needs an occluder nearer than the plane climbs from texel to \
                  texel, a texel's width over N·L, and wider than a few texels: the scene is made for it. The plane's \
-                 error is told by halvings of N·L; in finer steps it does not grow at each, as texels past the limb have no ball to compare with."
+                 error is reported by halvings of N·L; in finer steps it does not grow at each one, as texels past the limb have no ball to compare with."
         .into();
     Ok(made)
 }
@@ -192,9 +200,9 @@ fn about_umbra(set: &Set, name: &str, caption: &str, picture: &Picture, truth: &
         framed(&format!("{name}-whole"), caption, size, &painted(set, picture), middle, PART)
     };
     let close = |name: &str, caption: &str, picture: &Picture| {
-        zoomed_colour(name, &format!("{caption}, the frame enlarged"), size, &painted(set, picture), middle, PART)
+        zoomed_colour(name, &format!("{caption}, the framed part enlarged"), size, &painted(set, picture), middle, PART)
     };
-    let error = format!("{caption}, less truth");
+    let error = format!("{caption}, minus truth");
     let mut panels = vec![
         whole(name, caption, picture).with("map", "256²").against("truth-whole"),
         close(name, caption, picture).with("map", "256²").against("truth"),
@@ -248,8 +256,8 @@ pub const SHEETS: Figure = Figure {
     id: "WM94-sheets",
     paper: Paper::WangMolnar94,
     title: "Nothing but sheets",
-    claim: "Plane sheets need no bias, curved ones do, and a scene of sheets alone is the first-depth algorithm over again.",
-    look: "the curved sheet, which needs a bias as first depths always did.",
+    claim: "Plane sheets need no bias and curved ones do; for a scene of sheets alone the method is the first-depth algorithm over again.",
+    look: "the curved sheet, which needs a bias as first depths always do.",
     make: sheets,
 };
 
@@ -281,7 +289,7 @@ fn sheets(cx: &Context) -> anyhow::Result<Made> {
                 let panel = shadow_panel(&format!("{name}-{bias}"), &caption, &picture);
                 made.panels.push(panel.with("map", "512²").against(&against));
                 let (shadow, exact) = (&picture.shadow[0], &truth.shadow[0]);
-                let error = format!("{caption}, less truth");
+                let error = format!("{caption}, minus truth");
                 made.panels.push(error_panel(&format!("{name}-{bias}-error"), &error, truth.size, shadow, exact));
             }
         }
@@ -303,10 +311,11 @@ fn sheets(cx: &Context) -> anyhow::Result<Made> {
         ),
     ]);
     let plot =
-        Plot::new("Curved sheets, 512² map", Axis::linear("bias, world units"), Axis::linear("false shadow, share"))
+        Plot::new("Curved sheets, 512² map", Axis::linear("bias, world units"), Axis::linear("false shadow, fraction"))
             .add(Series::line("second depths", curve));
     made.plots.push(("false-shadow".into(), plot.svg()));
-    made.note = "The comparison with percentage closer is of both scenes, bit for bit: boxes of 3 × 3 texels, bias .1, no virtual samples.".into();
+    made.note = "Second depths and percentage closer are compared bit for bit on both scenes, with boxes of 3 × 3 texels, a bias of .1 and no virtual \
+        samples.".into();
     Ok(made)
 }
 

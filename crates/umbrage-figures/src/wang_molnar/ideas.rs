@@ -92,7 +92,7 @@ fn passes(cx: &Context) -> anyhow::Result<Made> {
     let by_rays = frame("The same by rays")
         .named(Mark::Dots(3.5), LIT, &those(&truth, false), "lit")
         .named(Mark::Dots(3.5), DARK, &those(&truth, true), "in shadow")
-        .named(Mark::Rings(7.0), Ink::Plain, &unlike(&by_fine), "a map of 641 columns says otherwise")
+        .named(Mark::Rings(7.0), Ink::Plain, &unlike(&by_fine), "differs under a map of 641 columns")
         .draw(Mark::Dots(6.0), Ink::Plain, &[light, eye]);
     Ok(Made {
         plots: vec![
@@ -113,7 +113,8 @@ fn passes(cx: &Context) -> anyhow::Result<Made> {
             ),
             Measure::at_least("camera's samples in shadow", those(&by_map, true).len() as f64 / all as f64, "share", 0.1),
         ],
-        note: "A slice: one row of a real map of 41 columns, one row of a real picture, a bias of ¾ of a depth step. Samples that differ from rays stand at a shadow's edge or where a surface is nearly edge-on, whose depth step, and with it the bias, is long."
+        note: "The slice shows one row of a real map of 41 columns and one row of a real picture, with a bias of ¾ of a depth step. Samples that differ from \
+            rays lie at a shadow's edge or where a surface is nearly edge-on, where the depth step, and with it the bias, is large."
             .into(),
         ..Made::default()
     })
@@ -123,8 +124,8 @@ pub const F2: Figure = Figure {
     id: "WM94-F2",
     paper: Paper::WangMolnar94,
     title: "Samples that do not match",
-    claim: "On a tilted surface half the camera's samples lie behind the depth that their texel keeps.",
-    look: "the camera's samples, half of which lie behind the depth that their texel keeps.",
+    claim: "On a tilted surface half the camera's samples lie behind the depth that their texel stores.",
+    look: "the camera's samples, half of which lie behind the depth that their texel stores.",
     make: mismatch,
 };
 
@@ -146,7 +147,11 @@ pub fn slope(cx: &Context, title: &str, steps: f32) -> anyhow::Result<(Diagram, 
         .outlined(Diagram::new(title, DVec2::new(-10.0, -7.5), DVec2::new(10.0, 8.0)))
         .pieces(0.8, Ink::Faint, columns.map(|x| [DVec2::new(x, -7.5), DVec2::new(x, 8.0)]))
         .pieces(2.4, STORED, kept.iter().map(tread))
-        .key(Mark::Line(2.4), STORED, if steps > 0.0 { "kept depth plus the bias" } else { "kept depth of a texel" })
+        .key(
+            Mark::Line(2.4),
+            STORED,
+            if steps > 0.0 { "stored depth plus the bias" } else { "stored depth of a texel" },
+        )
         .named(Mark::Dots(4.5), STORED, &kept, "light's samples")
         .named(Mark::Dots(3.5), LIT, &lit, "camera's samples, lit")
         .named(Mark::Dots(3.5), DARK, &dark, "camera's samples, shadowed by their own surface")
@@ -155,7 +160,7 @@ pub fn slope(cx: &Context, title: &str, steps: f32) -> anyhow::Result<(Diagram, 
     Ok((diagram, dark.len()))
 }
 
-/// Share in false shadow of a plane whose depth changes along one axis only, bias in depth steps.
+/// Fraction in false shadow of a plane whose depth changes along one axis only, bias in depth steps.
 fn false_share(cx: &Context, map: &Arc<Tiled>, normal: DVec3, step: f64, steps: f64, points: u32) -> f64 {
     let shadow = bind(presets::ordinary(Bias::World((steps * step) as f32)).filter, map, cx.storage);
     let key = Key::new(cx.seed, 0, 0);
@@ -191,14 +196,15 @@ fn mismatch(cx: &Context) -> anyhow::Result<Made> {
     let plot = Plot::new(
         "A plane tilted 60° along one axis",
         Axis::linear("bias, depth steps from texel to texel"),
-        Axis::linear("share in false shadow"),
+        Axis::linear("fraction in false shadow"),
     )
     .add(Series::line("false shadow, D-9", predicted))
     .add(Series::dots("false shadow, measured", measured));
     Ok(Made {
         plots: vec![("mismatch".into(), diagram.svg()), ("false-shadow".into(), plot.svg())],
         measures,
-        note: "The same holds whatever the map's size: at bias 0 it is exactly a half of what is lit.".into(),
+        note: "The same holds whatever the map's size: at bias 0 exactly half of what is lit is in false shadow."
+            .into(),
         ..Made::default()
     })
 }

@@ -21,7 +21,7 @@ pub const F10: Figure = Figure {
     id: "WM94-F10",
     paper: Paper::WangMolnar94,
     title: "The listing, printed and corrected",
-    claim: "What percent_illumination does as printed, and what it must do.",
+    claim: "percent_illumination as printed has errors, and each is shown beside the corrected listing.",
     look: "the flat sheets, which shadow themselves under the listing as printed.",
     make: listing,
 };
@@ -142,8 +142,8 @@ fn listing(cx: &Context) -> anyhow::Result<Made> {
             shadow_panel("printed", "As printed: flat sheets shadow themselves", &printed).against("truth"),
             shadow_panel("corrected", "Corrected", &right).against("truth"),
             truth_panel(&truth),
-            error_panel("error-printed", "As printed, less truth", truth.size, &printed.shadow[0], &truth.shadow[0]),
-            error_panel("error-corrected", "Corrected, less truth", truth.size, &right.shadow[0], &truth.shadow[0]),
+            error_panel("error-printed", "As printed, minus truth", truth.size, &printed.shadow[0], &truth.shadow[0]),
+            error_panel("error-corrected", "Corrected, minus truth", truth.size, &right.shadow[0], &truth.shadow[0]),
         ],
         tables: vec![v55, errata()?],
         measures,
@@ -161,7 +161,7 @@ fn sheets(cx: &Context) -> anyhow::Result<Set> {
     Ok(set)
 }
 
-/// E-M1 to E-M11: what is wrong, and what the listing answers before and after where a number shows it.
+/// E-M1 to E-M11: what is wrong, and what the listing returns before and after correction where a number shows it.
 fn errata() -> anyhow::Result<Table> {
     let view = sun()?;
     let (stored, seen) = v55()?;
@@ -174,7 +174,7 @@ fn errata() -> anyhow::Result<Table> {
     // Half of the nearest texels are outside.
     let rim = map(&view.with_rules(Rules::OPEN), |_| 5.0)?;
     let at_rim = tilted(&view, [16.0, 8.0], 6.0, [0.0, 0.0])?;
-    // A curved sheet's point lies half a unit behind what is stored of it.
+    // A curved sheet's point lies half a unit behind its own stored depth.
     let bent = map(&view, |_| 5.5)?;
     let biased = rule.with_plane(rule.plane.with_bias(Bias::World(0.6)));
     let equal = [6.0f32; 4];
@@ -186,7 +186,7 @@ fn errata() -> anyhow::Result<Table> {
     let rows = vec![
         row(
             "E-M1",
-            "the lit counter begins with no value: here at 0",
+            "the lit counter is not initialised: here it begins at 0",
             "undefined".into(),
             lit(corrected(rule, &stored, &Receiver { depth: 5.0, ..seen })),
         ),
@@ -210,7 +210,7 @@ fn errata() -> anyhow::Result<Table> {
         ),
         row(
             "E-M5",
-            "how many texels are near: the nearest four, or a box of 3 × 3",
+            "how many texels count as near: the nearest four, or a box of 3 × 3",
             "undefined".into(),
             format!("{} or {}", lit(corrected(rule, &edge, &level)), lit(corrected(boxed, &edge, &level))),
         ),
@@ -228,13 +228,13 @@ fn errata() -> anyhow::Result<Table> {
         ),
         row(
             "E-M8",
-            "a plane that holds the light's ray: virtual depths are no numbers, plain comparison decides",
+            "a plane that contains the light's ray: virtual depths are not numbers, and plain comparison decides",
             edge_on,
             lit(edge_on_ours),
         ),
         row(
             "E-M9",
-            "the result for what is lit: the listing returns illumination, we a shadow",
+            "the result for what is lit: the listing returns illumination, the corrected one shadow",
             lit(percent_illumination(4.0, &SECOND, &VIRTUAL, Division::Float)),
             lit(1.0 - corrected(rule, &stored, &Receiver { depth: 4.0, ..seen })),
         ),

@@ -23,7 +23,7 @@ pub const TAGS: Figure = Figure {
     id: "WM94-tags",
     paper: Paper::WangMolnar94,
     title: "Object tags instead of depths",
-    claim: "With a tag a polygon, edges between polygons are falsely dark; with a tag an object, it cannot shadow itself.",
+    claim: "With one tag per polygon, edges between polygons are falsely dark; with one tag per object, no object can shadow itself.",
     look: "the dark lines along edges between polygons, and the missing shadow of an object on itself.",
     make: tags,
 };
@@ -53,7 +53,7 @@ fn ring() -> anyhow::Result<Scene> {
     Ok(Scene { name: "ring".into(), origin: DVec3::ZERO, objects, lights: vec![lamp], ambient, background, camera })
 }
 
-/// The same surfaces, each triangle an object of its own; and the object that each was part of.
+/// The same surfaces with each triangle an object of its own, and the object that each was part of.
 fn split(scene: &Scene) -> (Scene, Vec<u32>) {
     let (mut objects, mut whole) = (Vec::new(), Vec::new());
     for (id, object) in scene.objects.iter().enumerate() {
@@ -79,7 +79,7 @@ fn tagged(scene: &Scene) -> Tags {
     Tags(bake_tags(&light, Soup::casters(scene, &light).triangles()))
 }
 
-/// Tags as colours that tell neighbours apart.
+/// Tags as colours that distinguish neighbours.
 fn tag_panel(name: &str, caption: &str, map: &TagMap) -> Panel {
     let colour = |id: u32| {
         let bits = mix32(id.wrapping_mul(0x9e37_79b9) ^ 0x51);
@@ -142,14 +142,14 @@ fn tags(cx: &Context) -> anyhow::Result<Made> {
     let slab = metrics::both(&lit_pixels, &of(&truth, |id| id != RING));
     Ok(Made {
         panels: vec![
-            shadow_panel("by-polygon", "A tag a polygon", &by_polygon).with("map", light.size().x).against("truth"),
-            shadow_panel("by-object", "A tag an object", &by_object).with("map", light.size().x).against("truth"),
+            shadow_panel("by-polygon", "One tag per polygon", &by_polygon).with("map", light.size().x).against("truth"),
+            shadow_panel("by-object", "One tag per object", &by_object).with("map", light.size().x).against("truth"),
             shadow_panel("second", "Second depths, no bias", &by_second).with("map", light.size().x).against("truth"),
             truth_panel(&truth),
-            error_panel("error-polygon", "A tag a polygon, less truth", truth.size, &by_polygon.shadow[0], &truth.shadow[0]),
-            error_panel("error-object", "A tag an object, less truth", truth.size, &by_object.shadow[0], &truth.shadow[0]),
-            tag_panel("map-polygon", "The map with a tag a polygon", &polygons.0),
-            tag_panel("map-object", "The map with a tag an object", &objects.0),
+            error_panel("error-polygon", "One tag per polygon, minus truth", truth.size, &by_polygon.shadow[0], &truth.shadow[0]),
+            error_panel("error-object", "One tag per object, minus truth", truth.size, &by_object.shadow[0], &truth.shadow[0]),
+            tag_panel("map-polygon", "The map with one tag per polygon", &polygons.0),
+            tag_panel("map-object", "The map with one tag per object", &objects.0),
         ],
         measures: vec![
             Measure::at_least("a tag a polygon: false shadow beside polygons' edges", false_on(&by_polygon, &edges), "share", 0.1),
@@ -161,7 +161,8 @@ fn tags(cx: &Context) -> anyhow::Result<Made> {
             Measure::exactly("of that shadow a tag an object finds", kept(&by_object), "share", 0.0),
             Measure::at_least("of that shadow second depths find", kept(&by_second), "share", 0.98).full_size(cx.quick),
         ],
-        note: "Tags need no bias and know no distance. One tag for all of a ring makes it lit wherever the ring itself is nearest to the light."
+        note: "Tags need no bias, but hold no distance. With one tag for the whole ring, the ring is lit wherever it is itself the nearest surface to the \
+            light."
             .into(),
         ..Made::default()
     })
@@ -172,7 +173,7 @@ pub const PCF_BIAS: Figure = Figure {
     paper: Paper::WangMolnar94,
     title: "A wider filter needs a larger bias",
     claim: "The smallest bias without false shadow grows in proportion to the filter's half-width.",
-    look: "the wide filter's stripes at a bias that was enough for the narrow one.",
+    look: "the wide filter's stripes at a bias that is enough for the narrow one.",
     make: pcf_bias,
 };
 
@@ -263,13 +264,14 @@ fn pcf_bias(cx: &Context) -> anyhow::Result<Made> {
                 .with("bias", "0.02")
                 .against("truth"),
             truth_panel(&truth),
-            error_panel("error-narrow", "Half-width 1, less truth", truth.size, &narrow.shadow[0], &truth.shadow[0]),
-            error_panel("error-wide", "Half-width 6, less truth", truth.size, &wide.shadow[0], &truth.shadow[0]),
+            error_panel("error-narrow", "Half-width 1, minus truth", truth.size, &narrow.shadow[0], &truth.shadow[0]),
+            error_panel("error-wide", "Half-width 6, minus truth", truth.size, &wide.shadow[0], &truth.shadow[0]),
         ],
         plots: vec![("bias".into(), plot.svg())],
         tables: vec![Table { name: "bias".into(), head, rows }],
         measures,
-        note: "Measured lines lie a little below the limit: a thousandth of the samples may still be dark.".into(),
+        note: "The measured lines lie a little below the limit, because a thousandth of the samples may still be dark."
+            .into(),
         ..Made::default()
     })
 }

@@ -15,7 +15,7 @@ pub const F8: Figure = Figure {
     id: "WM94-F8",
     paper: Paper::WangMolnar94,
     title: "Virtual samples on the tangent plane",
-    claim: "The plane through a point is known at the map's own samples; on a plane its depth there is exact.",
+    claim: "The plane through a point can be evaluated at the map's own samples; for a flat surface its depth there is exact.",
     look: "the samples on the tangent plane: they lie on the surface exactly where the map has its own.",
     make: virtual_samples,
 };
@@ -54,7 +54,7 @@ fn ulps(a: f32, b: f32) -> f64 {
 }
 
 /// How far virtual samples lie from what pass 1 stores of the same plane: with the raster's own plane and with a point and normal
-/// rounded to f32, both in ulp, and the latter as a share of the tolerance of WM94-12.
+/// rounded to f32, both in ulp, and the latter as a fraction of the tolerance of WM94-12.
 #[derive(Clone, Copy, Default)]
 struct Apart {
     own: f64,
@@ -63,7 +63,7 @@ struct Apart {
     compared: u32,
 }
 
-/// A triangle that covers a plane's part of the view, and a point of it at a texel position.
+/// A triangle that covers all of a plane that the view sees, and a point of it at a texel position.
 fn triangle(view: &View, key: Key, i: u32) -> Option<[Vec3; 3]> {
     let place = |dim| f64::from(key.signed(i, dim));
     let through = DVec3::new(place(0) * 3.0, 1.0 + 2.0 * place(1), place(2) * 3.0);
@@ -158,7 +158,14 @@ fn virtual_samples(cx: &Context) -> anyhow::Result<Made> {
             Measure::exactly("flat surface as drawn: virtual samples off the surface", bent[1], "world units", 0.0),
             Measure::at_least("round surface as drawn: virtual samples off the surface", bent[0], "world units", 0.01),
         ],
-        note: "Planes and maps share one formula, so that the raster's own plane gives the stored bits. On a round surface the tangent plane lies nearer to the light than the surface."
+        note: "Planes and maps share one formula, so that the raster's own plane gives the stored bits. On a round surface the tangent plane lies nearer to the \
+            \
+            \
+            \
+            \
+            \
+            \
+            light than the surface."
             .into(),
         ..Made::default()
     })
@@ -218,7 +225,7 @@ fn tangent() -> anyhow::Result<(String, [f64; 2])> {
         .key(Mark::Rings(6.0), Ink::Plain, "camera's sample")
         .key(Mark::Dashes, Ink::Series(3), "its tangent plane")
         .key(Mark::Dots(4.5), Ink::Series(1), "virtual samples")
-        .named(Mark::Dots(4.0), Ink::Series(2), &stored(&map), "second surfaces that the map keeps")
+        .named(Mark::Dots(4.0), Ink::Series(2), &stored(&map), "second surfaces that the map stores")
         .arrow(Ink::Plain, DVec2::new(-20.6, 19.0), DVec2::new(-20.6, 13.0))
         .text_from(Ink::Plain, DVec2::new(-19.8, 17.5), "light");
     Ok((diagram.svg(), off))

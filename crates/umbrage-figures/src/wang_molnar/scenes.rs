@@ -12,7 +12,7 @@ use umbrage_render::{Frame, Picture};
 use umbrage_report::{Made, Measure, Panel, Role, Table};
 use umbrage_scene::gallery;
 
-/// Four samples a pixel at fixed places, shaded once a surface.
+/// Four samples per pixel at fixed places, shaded once per surface.
 const FRAME: Frame = Frame { axis: 2, ..Frame::CENTRES };
 
 /// A scene by the paper's algorithm, solids' backs dark as their shading makes them; a sheet may be seen from either side.
@@ -69,13 +69,13 @@ impl Still {
             Panel::rgb(&name("full"), caption, size, picture.colour.clone()).with("bias", "none"),
             shadow_panel(&name("shadow"), &format!("{caption}: shadow alone"), picture).against(&name("truth")),
             Panel { name: name("truth"), ..truth_panel(truth) },
-            error_panel(&name("error"), &format!("{caption}, less truth"), size, &picture.shadow[0], &truth.shadow[0]),
+            error_panel(&name("error"), &format!("{caption}, minus truth"), size, &picture.shadow[0], &truth.shadow[0]),
         ]
     }
 
     /// Two windows side by side: what the method makes of a part of the picture, and its error there.
     fn window(&self, name: &str, caption: &str, centre: DVec2) -> [Panel; 3] {
-        let (error, truth) = (format!("{caption}, less truth"), format!("{name}-truth"));
+        let (error, truth) = (format!("{caption}, minus truth"), format!("{name}-truth"));
         [
             zoomed(name, caption, &self.picture, centre, 6).against(&truth),
             zoomed(&truth, &format!("{caption}, ray-traced"), &self.truth, centre, 6).role(Role::Truth),
@@ -88,7 +88,7 @@ pub const F13: Figure = Figure {
     id: "WM94-F13",
     paper: Paper::WangMolnar94,
     title: "Pipes",
-    claim: "Dense, curved solids, and no bias to set.",
+    claim: "Densely packed curved solids cast right shadows on one another, with no bias to set.",
     look: "the pipes' own shadows on one another, without a stripe.",
     make: pipes,
 };
@@ -97,7 +97,7 @@ fn pipes(cx: &Context) -> anyhow::Result<Made> {
     let set = Set::new(gallery::pipes(), cx.pick(1024, 384), 512);
     let still = Still::new(cx, &set, cx.pick(6, 3))?;
     let mut panels = still.panels("", "Pipes, 512² map");
-    panels.extend(still.window("middle", "In the thicket", DVec2::new(0.5, 0.55)));
+    panels.extend(still.window("middle", "Among the pipes", DVec2::new(0.5, 0.55)));
     let at_edges = acne(&still.picture, &still.truth, 0, |_| true);
     Ok(Made {
         panels,
@@ -115,8 +115,8 @@ pub const F14: Figure = Figure {
     id: "WM94-F14",
     paper: Paper::WangMolnar94,
     title: "A walk through a building",
-    claim: "Polygons large and thin, solids and sheets together, by one routine without a bias.",
-    look: "the mullions, the paper screen and the leaves: thick, thin and flat casters by one routine.",
+    claim: "One routine without a bias serves large and thin polygons, solids and sheets together.",
+    look: "the mullions, the paper screen and the leaves: thick, thin and flat casters, all handled by one routine.",
     make: hall,
 };
 
@@ -162,8 +162,8 @@ fn hall(cx: &Context) -> anyhow::Result<Made> {
             head: head.map(String::from).to_vec(),
             rows: (0..objects.len()).map(row).collect(),
         }],
-        note: "What is left: stairs along the edges of shadows; the leaves, which are curved sheets; and broken lines of light a texel wide where \
-               beams meet the ceiling, whose underside is the second surface there and touches them."
+        note: "What is left is stair-steps along the edges of shadows, false shadow on the leaves, which are curved sheets, and broken lines of \
+               light one texel wide where beams meet the ceiling, whose underside is the second surface there and touches them."
             .into(),
         ..Made::default()
     })
@@ -173,8 +173,8 @@ pub const F15: Figure = Figure {
     id: "WM94-F15",
     paper: Paper::WangMolnar94,
     title: "Bowling",
-    claim: "A sequence without a bias, in which nothing flickers that does not move.",
-    look: "what rests from frame to frame: nothing about it changes.",
+    claim: "In a sequence without a bias, nothing flickers that does not move.",
+    look: "what stays at rest from frame to frame: its shadows do not change.",
     make: bowling,
 };
 
@@ -239,8 +239,8 @@ fn bowling(cx: &Context) -> anyhow::Result<Made> {
         ));
     }
     made.note = format!(
-        "Static parts: pixels wholly on the lane, the gutters, the walls or the curtain whose place and true shadow are the same in both \
-         frames, and so are those of all pixels within {border}."
+        "Static parts are the pixels wholly on the lane, the gutters, the walls or the curtain whose surface and true shadow are the \
+         same in both frames, as are those of all pixels within {border}."
     );
     Ok(made)
 }

@@ -24,12 +24,12 @@ pub const F5: Figure = Figure {
     id: "WM94-F5",
     paper: Paper::WangMolnar94,
     title: "Where the second surface lies",
-    claim: "Second surfaces turn away from the light, and solids that reach into each other throw the shadow of their union.",
+    claim: "Second surfaces face away from the light, and solids that overlap cast the shadow of their union.",
     look: "the last picture, white where the two ways to find the second surface differ.",
     make: second,
 };
 
-/// Solids of which some reach into each other, the sun to the upper left, a camera to the upper right.
+/// Solids, some of which overlap, with the sun to the upper left and a camera to the upper right.
 fn muddle() -> anyhow::Result<Slice> {
     Slice::new(
         "muddle",
@@ -61,7 +61,7 @@ fn slice_diagram(cx: &Context, title: &str, slice: &Slice, map: &Arc<Tiled>) -> 
         .text_to(Ink::Plain, DVec2::new(57.0, 36.0), "camera, farther this way")
 }
 
-/// Closed solids that reach into each other on a slab, in the round.
+/// Closed solids on a slab that overlap, in three dimensions.
 fn union_scene() -> anyhow::Result<Scene> {
     let red = Material::plastic(Vec3::new(0.70, 0.14, 0.08));
     let grey = Material::matt(Vec3::new(0.54, 0.52, 0.48));
@@ -129,12 +129,12 @@ fn second(cx: &Context) -> anyhow::Result<Made> {
     let away: Vec<bool> = away.iter().zip(&meet).map(|(&away, &meet)| away && !meet).collect();
     let count = |mask: &[bool]| mask.iter().filter(|inside| **inside).count() as f64;
     let panels = vec![
-        Panel::rgb("full", "Solids that reach into each other", by[0].size, by[0].colour.clone()),
+        Panel::rgb("full", "Solids that overlap", by[0].size, by[0].colour.clone()),
         shadow_panel("two-buffers", "Two buffers", &by[0]).with("map", set.map.view().size().x).against("truth"),
         shadow_panel("back-faces", "Back faces", &by[1]).with("map", set.map.view().size().x).against("truth"),
         truth_panel(&points),
-        error_panel("error", "Two buffers less truth", points.size, &by[0].shadow[0], &points.shadow[0]),
-        error_panel("apart", "Two buffers less back faces", points.size, &by[0].shadow[0], &by[1].shadow[0]),
+        error_panel("error", "Two buffers minus truth", points.size, &by[0].shadow[0], &points.shadow[0]),
+        error_panel("apart", "Two buffers minus back faces", points.size, &by[0].shadow[0], &by[1].shadow[0]),
         Panel::grey("maps", "White: texels in which the two maps differ", light.size(), differ.clone()).role(Role::Map),
     ];
     Ok(Made {
@@ -148,7 +148,9 @@ fn second(cx: &Context) -> anyhow::Result<Made> {
             Measure::info("answered differently, beside silhouettes and meetings too", unlike(&facing) as f64, "points"),
             Measure::info("of points that face the light", count(&facing), "points"),
         ],
-        note: "What turns away from the light is left out: its own shading darkens it, whatever the map says. Points lie more than two texels of the map from any silhouette that the light sees, and three pixels from where solids meet: a neighbouring texel keeps a surface inside the union there, and two buffers keep another one than back faces."
+        note: "Surfaces that face away from the light are left out: their own shading darkens them, whatever the map holds. Points lie more than two texels of \
+            the map from any silhouette that the light sees, and three pixels from where solids meet: there a neighbouring texel stores a surface inside the \
+            union, and two buffers store a different one from back faces."
             .into(),
         ..Made::default()
     })
@@ -299,13 +301,20 @@ fn decision(cx: &Context) -> anyhow::Result<Made> {
                 .with("map", "256²")
                 .against("truth"),
             truth_panel(&truth),
-            error_panel("error-first", "First less truth", truth.size, &by_first.shadow[0], &truth.shadow[0]),
-            error_panel("error-second", "Second less truth", truth.size, &by_second.shadow[0], &truth.shadow[0]),
+            error_panel("error-first", "First minus truth", truth.size, &by_first.shadow[0], &truth.shadow[0]),
+            error_panel("error-second", "Second minus truth", truth.size, &by_second.shadow[0], &truth.shadow[0]),
         ],
         tables: vec![Table { name: "quantiles".into(), head, rows }],
         plots,
         measures,
-        note: "Points that turn away lie on the second surface itself and on both sides of its decision, which does no harm: their own shading is dark. All points lie away from shadow edges and inside the cone."
+        note: "Points that face away lie on the second surface itself, where the comparison can go either way; this does no harm, as their own shading is dark. \
+            \
+            \
+            \
+            \
+            \
+            \
+            All points lie away from shadow edges and inside the cone."
             .into(),
         ..Made::default()
     })

@@ -14,8 +14,8 @@ pub const F11: Figure = Figure {
     id: "WM94-F11",
     paper: Paper::WangMolnar94,
     title: "Coordinate systems",
-    claim: "Four matrices lead from the world to either eye and either screen, and back without loss.",
-    look: "the measures: each round trip ends where it began, but for a rounding.",
+    claim: "Four matrices lead from the world to either eye space and either screen space, and back without loss.",
+    look: "the measures: each round trip ends where it began, up to rounding.",
     make: spaces,
 };
 
@@ -103,7 +103,8 @@ fn spaces(cx: &Context) -> anyhow::Result<Made> {
             trip("V38: camera screen less its digits", (in_c - wanted).abs().max_element(), "screen units"),
             trip("V38: light screen less V35", (in_l - v35).abs().max_element(), "screen units"),
         ],
-        note: "M_C is `View::world_to_eye` of the camera and M_PC M_C its `View::world_to_screen`; M_L and M_PL likewise of the light: eye and light are one type."
+        note: "M_C is `View::world_to_eye` of the camera and M_PC M_C its `View::world_to_screen`; M_L and M_PL likewise of the light: eye and light are one \
+            type."
             .into(),
         ..Made::default()
     })
@@ -145,7 +146,7 @@ fn frames() -> anyhow::Result<String> {
         .arrow(Ink::Plain, DVec2::ZERO, DVec2::Y * 8.0)
         .text(Ink::Plain, DVec2::new(8.0, -2.0), "x")
         .text(Ink::Plain, DVec2::new(0.0, 9.8), "y")
-        .key(Mark::Line(1.8), Ink::Plain, "world; the y of both eyes comes out of the page");
+        .key(Mark::Line(1.8), Ink::Plain, "world; the y axis of both eyes points out of the page");
     Ok(diagram.svg())
 }
 

@@ -19,7 +19,7 @@ use umbrage_shadow::Shadow;
 pub const SECOND: &str = "wang-molnar94";
 /// The same with what turns away from the light counted as dark, which its shading makes it anyway (WM94-4).
 pub const SHADED: &str = "wang-molnar94,backs=dark";
-/// 16 samples a pixel, each with its ray.
+/// 16 samples per pixel, each with its ray.
 pub const RAYS: Frame = Frame { axis: 4, stochastic: true, every_sample: true, ..Frame::CENTRES };
 
 /// Side of a leg, and its thickness along the light.
@@ -59,10 +59,10 @@ pub struct Foot {
     lit: Vec<SurfacePoint>,
 }
 
-/// What a method does there.
+/// How a method does there.
 #[derive(Clone, Copy)]
 pub struct Found {
-    /// False shadow on the floor (M2), share.
+    /// False shadow on the floor (M2), as a fraction.
     pub acne: f64,
     /// From the leg to its shadow (M7), world units.
     pub gap: f64,
@@ -174,7 +174,7 @@ pub const F4: Figure = Figure {
     id: "WM94-F4",
     paper: Paper::WangMolnar94,
     title: "A table on whose legs no bias works",
-    claim: "At 512² every bias leaves false shadow on the floor or parts shadows from the legs; second depths do neither, without a bias.",
+    claim: "At 512² every bias either leaves false shadow on the floor or detaches shadows from the legs; second depths do neither, without a bias.",
     look: "the floor and the foot of the far leg: one of them is wrong for every bias, and neither is for second depths.",
     make: table,
 };
@@ -220,9 +220,9 @@ fn table(cx: &Context) -> anyhow::Result<Made> {
             Measure::at_most("second depths, 512², no bias: false shadow", second.acne, "share", 0.0),
             Measure::at_most("second depths: from the leg to its shadow", second.gap, "world units", 1.0),
         ],
-        note: "Measured at the leg that stands farthest from the light, on floor more than three texels away from silhouettes; gaps are the mean of \
-               16 lines along the shadow. Which leg it is matters for (a): at the one nearest the light, where it falls more steeply and texels are \
-               smaller, a bias of 15 leaves less than the .05 of false shadow asked for, though no bias works there either."
+        note: "Faults are measured at the leg that stands farthest from the light, on floor more than three texels away from silhouettes; gaps are the mean of \
+               16 lines along the shadow. The choice of leg matters for (a): at the one nearest to the light, where the light falls more steeply \
+               and texels are smaller, a bias of 15 leaves less than the .05 of false shadow that (a) requires, though no bias works there either."
             .into(),
         ..Made::default()
     })
@@ -261,7 +261,7 @@ fn panels(cx: &Context, foot: &Foot, large: &Foot) -> anyhow::Result<Vec<Panel>>
         let picture = shaded_backs(near.by(cx, recipe, &Frame::default())?);
         let close = format!("{caption}: the far leg's foot");
         panels.push(shadow_panel(name, &close, &picture).against("truth"));
-        let error = format!("{caption}, less truth");
+        let error = format!("{caption}, minus truth");
         let panel = error_panel(&format!("{name}-error"), &error, truth.size, &picture.shadow[0], &truth.shadow[0]);
         panels.push(panel);
     }

@@ -17,7 +17,7 @@ pub const F6: Figure = Figure {
     id: "W78-F6",
     paper: Paper::Williams78,
     title: "The shadow on the shaded picture",
-    claim: "Shaded by the same light, the cosine hides what is left of the artefacts.",
+    claim: "Shaded by the same light, the cosine term hides what is left of the artefacts.",
     look: "the lit sides: artefacts that the shadow alone shows plainly are hardly seen once the picture is shaded.",
     make: applied,
 };
@@ -39,7 +39,7 @@ fn applied(cx: &Context) -> anyhow::Result<Made> {
     let error_over =
         |ours: &[Vec3], exact: &[Vec3]| value(metrics::rms(&grey(ours), &grey(exact), &band)) / shadow_error;
     let (kept, dimmed, inside) = highlights(cx, &set, &shaded, &truth, &image, DENSITY);
-    // The ambient term as the shadows' own translucency: the light's part alone is darkened, to nothing.
+    // The ambient term serves as the shadows' translucency: only the light's own contribution is darkened, down to nothing.
     let ambient = ambient(&set, &shaded);
     let direct: Vec<Vec3> = shaded.colour.iter().zip(&ambient).map(|(all, ambient)| *all - *ambient).collect();
     let lit = |shadow: &[f32]| -> Vec<Vec3> {
@@ -53,28 +53,29 @@ fn applied(cx: &Context) -> anyhow::Result<Made> {
         zoomed_colour("shadow-zoom", "The shadow alone, at a terminator", size, &bare.pixels, terminator, part);
     Ok(Made {
         panels: vec![
-            colour_panel("applied", "Shadow applied to the light's part", size, &hidden)
+            colour_panel("applied", "Shadow applied to the light's contribution only", size, &hidden)
                 .with("density", 1)
                 .against("truth"),
             bare.against("shadow-truth"),
             zoomed_colour("applied-zoom", "Applied, at the same terminator", size, &hidden, terminator, part),
             bare_zoom,
-            zoomed_colour("whole-zoom", "Applied to all of the picture, there", size, &ours, terminator, part),
+            zoomed_colour("whole-zoom", "Applied to the whole picture, at the same place", size, &ours, terminator, part),
             colour_panel("shaded", "Without shadow", size, &shaded.colour),
-            colour_panel("truth", "Ray-traced truth, applied alike", size, &hidden_exact).role(Role::Truth),
+            colour_panel("truth", "Ray-traced truth, applied in the same way", size, &hidden_exact).role(Role::Truth),
             shadow_image_panel("shadow-truth", "Ray-traced shadow alone", size, &truth.shadow[0]).role(Role::Truth),
-            colour_panel("whole", "Shadow applied to all of the picture", size, &ours)
+            colour_panel("whole", "Shadow applied to the whole picture", size, &ours)
                 .with("density", DENSITY)
                 .against("whole-truth"),
-            colour_panel("whole-truth", "Ray-traced truth, applied to all of the picture", size, &exact)
+            colour_panel("whole-truth", "Ray-traced truth, applied to the whole picture", size, &exact)
                 .role(Role::Truth),
-            error_panel("error", "Applied to all: darkness less truth's, four times", size, &loud(&exact), &loud(&ours)),
-            error_panel("applied-error", "Applied to the light's part: the same", size, &loud(&hidden_exact), &loud(&hidden)),
+            error_panel("error", "Applied to the whole picture: darkness minus truth's, four times as strong", size, &loud(&exact), &loud(&ours)),
+            error_panel("applied-error", "Applied to the light's contribution: the same", size, &loud(&hidden_exact), &loud(&hidden)),
         ],
         plots: vec![("terminator".into(), across_terminator(&sphere, size.x, [&image, &grey(&hidden), &grey(&hidden_exact)]))],
-        note: "The shadow's own terminator is torn and stands some pixels too far into the dark. Where only the light's part is darkened, as the \
-               paper's translucent shadows have it, that part is next to nothing there already, by the cosine, and neither is seen. Darkened with \
-               all of the picture, ambient light too, the tear comes back: the cosine hides only what it has a part in."
+        note: "The terminator of the shadow itself is ragged and lies some pixels too far into the dark. Where only the light's contribution is \
+               darkened, as with the paper's translucent shadows, the cosine has already made that contribution almost nothing there, and neither fault is \
+               visible. Where the \
+               whole picture is darkened, ambient light included, the ragged edge comes back: the cosine hides only what it multiplies."
             .into(),
         measures: vec![
             Measure::info("shadow alone: error at N·L < .3", shadow_error, "rms share"),
@@ -119,7 +120,7 @@ fn across_terminator(sphere: &Alone, width: u32, [image, ours, exact]: [&[f32]; 
     };
     Plot::new(
         "A row across the terminator",
-        Axis::linear("place on the sphere, radii"),
+        Axis::linear("position on the sphere, radii"),
         Axis::linear("fraction of the brightest"),
     )
     .add(Series::line("light passed by the shadow alone", line(&|i| 1.0 - image[i])))

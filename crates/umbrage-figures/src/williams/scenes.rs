@@ -1,4 +1,4 @@
-//! Williams 1978, Figures 7 and 8 and the text: sculpted surfaces, the robot, what it costs, and the cheaper method.
+//! Williams 1978, Figures 7 and 8 and the text: sculpted surfaces, the robot, what the method costs, and the cheaper one.
 
 use crate::figure::{Context, Figure, Paper};
 use crate::stage::lights::Stage;
@@ -26,7 +26,7 @@ pub const F7: Figure = Figure {
     id: "W78-F7",
     paper: Paper::Williams78,
     title: "A sculpted smile",
-    claim: "Curved surfaces throw curved shadows on a flat and on a curved surface.",
+    claim: "Curved surfaces cast curved shadows on flat and curved surfaces alike.",
     look: "the smile's shadow, on the flat surface and on the curved one.",
     make: smile,
 };
@@ -45,7 +45,7 @@ fn overlap(ours: &Picture, truth: &Picture, mask: &[bool]) -> f64 {
     value(metrics::iou(&dark(&ours.shadow[0]), &dark(&truth.shadow[0])))
 }
 
-/// Ids of the objects whose names hold a word.
+/// Ids of the objects whose names contain a word.
 fn named(scene: &Scene, word: &str) -> Vec<u32> {
     let found = scene.objects.iter().enumerate().filter(|(_, object)| object.name.contains(word));
     found.map(|(id, _)| id as u32).collect()
@@ -66,7 +66,7 @@ fn smile(cx: &Context) -> anyhow::Result<Made> {
             colour_panel("a-smile", "The smile and its shadow", picture.size, &picture.colour).against("truth"),
             shadow_panel("b-shadow", "The shadow alone", &picture),
             colour_panel("truth", "Ray-traced truth", truth.size, &truth.colour).role(Role::Truth),
-            error_panel("error", "Shadow less truth", picture.size, &picture.shadow[0], &truth.shadow[0]),
+            error_panel("error", "Shadow minus truth", picture.size, &picture.shadow[0], &truth.shadow[0]),
         ],
         measures: vec![
             Measure::at_least("objects of open patches", open as f64, "objects", 1.0),
@@ -88,7 +88,7 @@ pub const F8: Figure = Figure {
     id: "W78-F8",
     paper: Paper::Williams78,
     title: "The robot",
-    claim: "More than 350 bicubic patches throw one shadow over floor and wall.",
+    claim: "More than 350 bicubic patches cast one continuous shadow over floor and wall.",
     look: "the one shadow that runs without a break from the floor up the wall.",
     make: robot,
 };
@@ -134,7 +134,7 @@ fn robot(cx: &Context) -> anyhow::Result<Made> {
                 .against("truth"),
             shadow_panel("shadow", "The shadow alone", &picture),
             colour_panel("truth", "Ray-traced truth", truth.size, &truth.colour).role(Role::Truth),
-            error_panel("error", "Shadow less truth", picture.size, &picture.shadow[0], &truth.shadow[0]),
+            error_panel("error", "Shadow minus truth", picture.size, &picture.shadow[0], &truth.shadow[0]),
         ],
         measures: vec![
             Measure::at_least("bicubic patches", patches(scene) as f64, "patches", 351.0),
@@ -185,8 +185,8 @@ pub const COST: Figure = Figure {
     id: "W78-cost",
     paper: Paper::Williams78,
     title: "What it costs",
-    claim: "Work grows linearly with the scene; the post-process transforms a fixed number of points.",
-    look: "the lines of the plot: work in the two views rises with the scene, work in the post-process does not.",
+    claim: "The work grows linearly with the scene's complexity; the post-process transforms a fixed number of points.",
+    look: "the lines of the plot: the work in the two views rises with the scene, the work in the post-process does not.",
     make: cost,
 };
 
@@ -274,8 +274,8 @@ fn cost(cx: &Context) -> anyhow::Result<Made> {
             made.measures.push(Measure::yes(what, yes));
         }
         made.caveat = Some(
-            "Pass 1 and the fragments of both views grow linearly; the picture's own time does not yet, because shading its pixels costs \
-             the same for 8 balls as for 512 and is most of it."
+            "Pass 1 and the fragments of both views grow linearly; the time of the picture itself does not yet, because shading its \
+             pixels costs the same for 8 balls as for 512 and takes most of it."
                 .into(),
         );
     }
@@ -285,8 +285,8 @@ fn cost(cx: &Context) -> anyhow::Result<Made> {
             .add(Series::line("pass 1", pass1_times))
             .add(Series::line("post-process", post_times));
     made.plots.push(("cost".into(), plot.svg()));
-    made.note = "The times of this run are in the plot and in timings.json. The picture's own time grows more slowly at first: shading its \
-                 pixels costs the same for all."
+    made.note = "The times of this run are in the plot and in timings.json. The time of the picture itself grows more slowly at first, \
+                 because shading its pixels costs the same however many balls there are."
         .into();
     Ok(made)
 }
@@ -295,8 +295,8 @@ pub const PLANE: Figure = Figure {
     id: "W78-plane",
     paper: Paper::Williams78,
     title: "Projection onto the ground",
-    claim: "The cheaper method throws the same shadow on its one plane, and none on anything else.",
-    look: "the ground, where projection and depth map agree, and the other surfaces, on which projection throws nothing.",
+    claim: "The cheaper method casts the same shadow on its one plane, and none on anything else.",
+    look: "the ground, where projection and depth map agree, and the other surfaces, on which projection casts nothing.",
     make: plane,
 };
 
@@ -310,7 +310,7 @@ fn plane(cx: &Context) -> anyhow::Result<Made> {
     let flat = picture(scene, &[&planar as &dyn Shadow], &Frame { seed: cx.seed, ..Frame::default() });
     let mapped = stage.shoot(cx, RECIPE, &Frame::default())?;
     let truth = stage.truth(cx, &Frame::default());
-    // Outside the lamp's cone it is dark anyway, and the projection does not know of cones.
+    // Outside the lamp's cone it is dark anyway, and the projection takes no account of cones.
     let lit = |i: usize| scene.lights[0].incident(truth.position[i]).1 != Vec3::ZERO;
     let on_slab = of(&truth, |id| id == slab);
     let mask: Vec<bool> = (0..on_slab.len()).map(|i| on_slab[i] && lit(i)).collect();
@@ -320,7 +320,7 @@ fn plane(cx: &Context) -> anyhow::Result<Made> {
             colour_panel("planar", "Projected onto the ground", flat.size, &flat.colour).against("truth"),
             colour_panel("mapped", "By a depth map", mapped.size, &mapped.colour).against("truth"),
             colour_panel("truth", "Ray-traced truth", truth.size, &truth.colour).role(Role::Truth),
-            error_panel("error", "Projection less truth", truth.size, &flat.shadow[0], &truth.shadow[0]),
+            error_panel("error", "Projection minus truth", truth.size, &flat.shadow[0], &truth.shadow[0]),
         ],
         measures: vec![
             Measure::at_least(

@@ -21,12 +21,12 @@ pub const F3: Figure = Figure {
     id: "W78-F3",
     paper: Paper::Williams78,
     title: "Shadow alone, reduced bias",
-    claim: "Quantisation moiré, worst where the surface turns edge-on to the light and where it turns edge-on to the observer.",
+    claim: "Quantisation moiré is worst where the surface turns edge-on to the light or to the observer.",
     look: "the bands and moiré on the lit sides of the spheres, densest where a surface turns edge-on.",
     make: reduced_bias,
 };
 
-/// A window on the lit side of the lone sphere, where moiré shows: its last column is the last one that truth calls lit in every row.
+/// A window on the lit side of the lone sphere, where moiré shows: its last column is the last one that is lit in truth in every row.
 fn window(image: &[f32], width: u32, sphere: &Alone) -> Vec<f32> {
     let side = if sphere.radius > 64.0 { 64 } else { 32 };
     let edge = sphere.centre.x - sphere.radius * predict::terminator_offset(100f64.to_radians()).abs();
@@ -90,7 +90,7 @@ fn reduced_bias(cx: &Context) -> anyhow::Result<Made> {
         .full_size(cx.quick),
     );
     made.measures.push(Measure::info("the terminator in truth", offset(&exact.shadow[0]), "R"));
-    // The negative control: depth smoothed before it is looked up.
+    // The negative control: depths smoothed before they are looked up.
     let smooth = Arc::new(Tiled::from(&bandlimit(&Raw::copy_of(&set.map), 1)));
     let controlled = set.shoot_map(cx, reduced(1.0), &smooth, &Frame::CENTRES);
     let unfiltered = value(metrics::false_shadow(&set.shoot(cx, reduced(1.0), &Frame::CENTRES).shadow[0], &lit_all));
@@ -102,7 +102,7 @@ fn reduced_bias(cx: &Context) -> anyhow::Result<Made> {
         0.8,
     ));
     limb(cx, &set, 100, &mut made)?;
-    // The paper's wording reads both ways.
+    // The paper's wording can be read both ways.
     let set_80 = Set::new(gallery::four_spheres_lit_from(80.0), set.scene.camera.size().x, set.map.view().size().x);
     limb(cx, &set_80, 80, &mut made)?;
     let one = post(cx, &set, &centres, reduced(1.0)).shadow;
@@ -117,14 +117,15 @@ fn reduced_bias(cx: &Context) -> anyhow::Result<Made> {
             .against("truth"),
         shadow_image_panel("enough", "Four times the bias", truth.size, &enough).with("bias", "4 px").against("truth"),
         truth_panel(&exact),
-        error_panel("error", "Reduced bias less truth", truth.size, &one, &exact.shadow[0]),
+        error_panel("error", "Reduced bias minus truth", truth.size, &one, &exact.shadow[0]),
     ];
-    made.note = "The second band needs points snapped to pixels and the light at 80°, the other reading of the paper's 100°: \
-                 with the light at 100° the terminator's own band drowns it. The text puts the band's edge to the right; geometry puts it at the lit limb.".into();
+    made.note = "The second band appears only with points snapped to pixels and the light at 80°, the other reading of the \
+                 paper's 100°: with the light at 100° it is lost in the terminator's own band. The paper's text places the band at the right; by geometry it \
+                 lies at the lit limb.".into();
     Ok(made)
 }
 
-/// How far left of a sphere's centre its shadow begins near the equator, in radii: from the lit pixels' number in each row.
+/// How far left of a sphere's centre its shadow begins near the equator, in radii, from the number of lit pixels in each row.
 fn terminator_offset(shadow: &[f32], width: u32, sphere: &Alone) -> f64 {
     let (width, half) = (width as usize, (0.1 * sphere.radius) as usize);
     let (left, right) = ((sphere.centre.x - sphere.radius) as usize, sphere.centre.x as usize);
@@ -183,7 +184,7 @@ pub const F4: Figure = Figure {
     paper: Paper::Williams78,
     title: "Increased bias, dither, interpolated depth",
     claim: "The moiré is broken into noise.",
-    look: "the same places as in Figure 3: bands have become noise, and edges are where they were.",
+    look: "the same places as in Figure 3: bands have become noise, and the edges have not moved.",
     make: dither,
 };
 
@@ -246,11 +247,11 @@ fn dither(cx: &Context) -> anyhow::Result<Made> {
             .with("dither", "±½ px")
             .against("truth"),
         truth_panel(&exact),
-        error_panel("error", "Less truth", truth.size, &faithful_4, &exact.shadow[0]),
+        error_panel("error", "Minus truth", truth.size, &faithful_4, &exact.shadow[0]),
     ];
-    made.note = "Interpolating across silhouettes, where an empty texel counts as the far plane, is what breaks the moiré up: at this bias \
-                 all of it lies within two texels of one. The price is light along the terminator; without it (right) there is none, \
-                 and the moiré stays."
+    made.note = "What breaks up the moiré is interpolation across silhouettes, where an empty texel counts as the far plane: at this bias \
+                 all of the moiré lies within two texels of a silhouette. The price is false light along the terminator; without such interpolation \
+                 (right) there is none, and the moiré stays."
         .into();
     let plot =
         Plot::new("Regularity of the false shadow", Axis::linear("bias, px"), Axis::log("spectral peak over median"))
@@ -325,7 +326,7 @@ fn smoothing(cx: &Context) -> anyhow::Result<Made> {
             .with("low-pass", "[1 2 1]/4 × 2")
             .against("truth"),
             truth_panel(&exact),
-            error_panel("error", "Less truth", exact.size, &after, &exact.shadow[0]),
+            error_panel("error", "Minus truth", exact.size, &after, &exact.shadow[0]),
         ],
         measures: vec![
             Measure::info("½ contour against truth before", rms(&before), "px rms"),
@@ -348,9 +349,9 @@ fn smoothing(cx: &Context) -> anyhow::Result<Made> {
             ),
         ],
         caveat: Some(format!(
-            "The contour comes nearer to truth by {:.0} %, not by half: interpolating across silhouettes, as Figure 4 needs it, moves \
-             the terminator itself, by {:.1} px in the mean before and {:.1} px after, and that no filter on the picture takes back. \
-             Kept from silhouettes, and with the longest windows, the ratio is near one half. Proposed bound: 0.9.",
+            "The contour's distance from truth falls by {:.0} %, not by half: interpolation across silhouettes, which Figure 4 needs, \
+             moves the terminator itself, by {:.1} px on average before and {:.1} px after, and no filter on the picture can undo that. \
+             Without interpolation across silhouettes, and with the longest windows, the ratio is near one half. Proposed bound: 0.9.",
             100.0 * (1.0 - ratio),
             mean(&before),
             mean(&after)

@@ -19,7 +19,7 @@ pub const F1: Figure = Figure {
     paper: Paper::Williams78,
     title: "The observer's view",
     claim: "Four shaded spheres, no shadow yet.",
-    look: "the four spheres, shaded from where the observer stands, and the z-buffer that holds how far away they are.",
+    look: "the four spheres as the observer sees them, and the z-buffer, which holds their distances from the observer.",
     make: observer,
 };
 
@@ -41,8 +41,8 @@ fn depth_panel(picture: &Picture, camera: &View) -> Panel {
         .role(Role::Map)
 }
 
-/// How many spheres show a whole disc of their own area (to one part in a hundred), and how far the outlines of those that any
-/// background touches are from a circle at most, in pixels.
+/// How many spheres show a whole disc of their own area (within one percent), and the greatest distance, in pixels, between a
+/// circle and the outlines of those that border on background.
 fn discs(picture: &Picture, view: &View, set: &Set) -> (u32, f64) {
     let (width, height) = (picture.size.x as usize, picture.size.y as usize);
     let (mut whole, mut worst) = (0, 0.0f64);
@@ -86,7 +86,7 @@ pub const F2: Figure = Figure {
     paper: Paper::Williams78,
     title: "The light's view",
     claim: "The same scene from a light at infinity, 100° to the left: what is hidden here is in shadow.",
-    look: "which parts of the spheres the light sees, and then, in Figure 1, which parts are missing here.",
+    look: "which parts of the spheres the light sees, and which parts of Figure 1 it does not.",
     make: light_view,
 };
 
@@ -108,7 +108,7 @@ fn light_view(cx: &Context) -> anyhow::Result<Made> {
             Measure::exactly("whole discs, one being partly covered", f64::from(whole), "discs", 3.0),
             Measure::at_most("outline against a circle", worst, "px", 1.0),
         ],
-        note: "Pass 1 keeps depth alone: nothing is shaded for it. The shaded picture is drawn here to be looked at."
+        note: "Pass 1 stores depths only and shades nothing. The shaded picture is here to show what the light sees."
             .into(),
         ..Made::default()
     })
@@ -118,7 +118,7 @@ pub const TEAPOT: Figure = Figure {
     id: "U-teapot",
     paper: Paper::Williams78,
     title: "The teapot's curved shadow",
-    claim: "A body of bicubic patches throws its shadow on a plane and on itself.",
+    claim: "A body of bicubic patches casts its shadow on a plane and on itself.",
     look: "the spout's shadow on the body, and the handle's on the ground.",
     make: teapot,
 };
@@ -152,12 +152,12 @@ fn teapot(cx: &Context) -> anyhow::Result<Made> {
             colour_panel("shaded", "Percentage-closer filtering over a 1024² map", picture.size, &picture.colour)
                 .with("map", "1024²")
                 .with("NumSamples", 64)
-                .with("samples a pixel", 16)
-                .with("bias", "0.3 before the tangent plane")
+                .with("samples per pixel", 16)
+                .with("bias", "0.3 in front of the tangent plane")
                 .against("truth"),
             colour_panel("truth", "Ray-traced truth", truth.size, &truth.colour).role(Role::Truth),
             shadow_panel("shadow", "Shadow component", &picture),
-            error_panel("error", "Shadow less truth", picture.size, &picture.shadow[0], &truth.shadow[0]),
+            error_panel("error", "Shadow minus truth", picture.size, &picture.shadow[0], &truth.shadow[0]),
         ],
         measures: vec![
             Measure::at_least("shadow on the plane", cast, "share of its pixels", 0.01),

@@ -14,8 +14,8 @@ pub const COST: Figure = Figure {
     id: "W92-cost",
     paper: Paper::Woo92,
     title: "Whole units first",
-    claim: "Whole numbers settle most comparisons, with the same answers.",
-    look: "the measures: the share of comparisons that whole numbers settle, and how many answers differ.",
+    claim: "Comparing whole units first settles most comparisons, with the same results.",
+    look: "the measures: the fraction of comparisons that whole numbers settle, and how many results differ.",
     make: cost,
 };
 
@@ -59,7 +59,7 @@ fn cost(cx: &Context) -> anyhow::Result<Made> {
                 0.011,
             ),
         ],
-        note: "On a processor of today floating point costs nothing more: times are in timings.json.".into(),
+        note: "On today's processors floating point costs nothing extra; the times are in timings.json.".into(),
         timings,
         ..Made::default()
     })

@@ -18,9 +18,9 @@ use umbrage_shadow::presets;
 pub const F1: Figure = Figure {
     id: "W92-F1",
     paper: Paper::Woo92,
-    title: "Why a nearest depth shadows itself, and a midpoint does not",
-    claim: "A surface between two samples lies behind the nearer one; halfway to the next surface nothing lies.",
-    look: "the stretches where the surface lies behind the nearest depths, and the midpoints, behind which it lies nowhere.",
+    title: "Why a nearest depth shadows its own surface, and a midpoint does not",
+    claim: "Between two samples a surface lies behind the nearer one; halfway to the next surface there is nothing to shadow.",
+    look: "the stretches where the surface lies behind the nearest depths; it nowhere lies behind the midpoints.",
     make: profile,
 };
 
@@ -83,7 +83,7 @@ fn profile(cx: &Context) -> anyhow::Result<Made> {
             Measure::at_least("(*) behind its own stored depth", behind_stored(starred), "world units", 1e-4),
             Measure::info("(*) before the midpoint", f64::from(middle.depth(IVec2::new(starred as i32, row))) - surface(starred), "world units"),
         ],
-        note: "Stored values that are too near, not too far, make a surface shadow itself; the paper's prose has it the other way round.".into(),
+        note: "Stored values that are too near, not too far, make a surface shadow itself; the paper's text says the opposite.".into(),
         ..Made::default()
     })
 }

@@ -1,4 +1,4 @@
-//! Woo 1992, the rule of the cone: what lies outside a spot is dark.
+//! Woo 1992, the rule of the cone: what lies outside a spot's cone is dark.
 
 use super::room::middle_map;
 use crate::figure::{Context, Figure, Paper};
@@ -20,7 +20,7 @@ pub const RIM: Figure = Figure {
     id: "W92-rim",
     paper: Paper::Woo92,
     title: "Shadow that reaches the rim of a spot's cone",
-    claim: "Samples outside the cone count as shadow; counted as lit they draw a bright line along the rim.",
+    claim: "Samples outside the cone must count as shadow; counted as lit, they draw a bright line along the rim.",
     look: "the bright line along the edge of the light's cone, and its absence where outside counts as shadow.",
     make: rim,
 };
@@ -59,12 +59,12 @@ fn rim(cx: &Context) -> anyhow::Result<Made> {
     let mut across = Plot::new(
         "Light along a radius without shadow, outside dark",
         Axis::linear("texels outward from the rim"),
-        Axis::linear("light arriving, share"),
+        Axis::linear("light arriving, fraction"),
     );
     let mut plot = Plot::new(
         "Light along a radius, in the board's shadow",
         Axis::linear("texels outward from the rim"),
-        Axis::linear("light arriving, share"),
+        Axis::linear("light arriving, fraction"),
     );
     let (mut panels, mut alone, mut ridges) = (Vec::new(), Vec::new(), Vec::new());
     for (name, caption, rules) in
@@ -115,10 +115,11 @@ fn rim(cx: &Context) -> anyhow::Result<Made> {
     made.panels = panels.into_iter().chain(alone).collect();
     made.plots.push(("rim".into(), plot.svg()));
     made.plots.push(("rim-in-light".into(), across.svg()));
-    made.note = "Seen from above: the left half of the spot's circle lies under a board that is cut away in the picture. Reeves' listing counts \
-                 samples outside the cone as lit, so that regions that straddle the rim get a part of a light that does not \
-                 reach them: the thin bright arc. The shadow alone does not show it, because beyond the rim \
-                 no light is left to be shadowed. The rim is the cone's circle, not the map's square around it, and never the box around the finite depths: with midpoints most \
+    made.note = "The scene is seen from above: the left half of the spot's circle lies under a board that is cut away in the picture. Reeves' listing counts \
+                 samples outside the cone as lit, so that regions that straddle the rim receive some of a light that does \
+                 not reach them: the thin bright arc. The shadow alone does not show it, because beyond the rim \
+                 no light is left to be shadowed. The rim is the cone's circle, not the map's square around it, and never the box around the finite depths: \
+                 with midpoints most \
                  of a lit map is empty."
         .into();
     Ok(made)

@@ -39,8 +39,8 @@ pub const F2: Figure = Figure {
     id: "W92-F2",
     paper: Paper::Woo92,
     title: "A 256² map under a 75° spot, biases of .2 to .4",
-    claim: "The old algorithm leaves surfaces noisy at this size.",
-    look: "the noise on walls and floor, beside truth.",
+    claim: "With a map of this size the old algorithm leaves surfaces noisy.",
+    look: "the noise on walls and floor, compared with truth.",
     make: old,
 };
 
@@ -61,7 +61,7 @@ fn old(cx: &Context) -> anyhow::Result<Made> {
                 .with("bias", "0.2–0.4"),
             shadow_panel("shadow", "Its shadow alone", &by_old).against("truth"),
             truth_panel(&truth),
-            error_panel("error", "Less truth", truth.size, &by_old.shadow[0], &truth.shadow[0]),
+            error_panel("error", "Minus truth", truth.size, &by_old.shadow[0], &truth.shadow[0]),
         ],
         measures: vec![
             Measure::info("room: false shadow (M2)", old, "share"),
@@ -88,8 +88,8 @@ fn old(cx: &Context) -> anyhow::Result<Made> {
 pub const F3: Figure = Figure {
     id: "W92-F3",
     paper: Paper::Woo92,
-    title: "The same by midpoints, without a bias",
-    claim: "Clean at 256², and cleaner than the old algorithm at 1024².",
+    title: "The same room by midpoints, without a bias",
+    claim: "Midpoints are clean at 256², cleaner than the old algorithm at 1024².",
     look: "the same walls and floor, clean at the same size; and the slab in the last picture, on which midpoints fail.",
     make: midpoints,
 };
@@ -111,7 +111,7 @@ fn midpoints(cx: &Context) -> anyhow::Result<Made> {
                 .with("bias", "none"),
             shadow_panel("shadow", "Its shadow alone", &by_new).against("truth"),
             truth_panel(&truth),
-            error_panel("error", "Less truth", truth.size, &by_new.shadow[0], &truth.shadow[0]),
+            error_panel("error", "Minus truth", truth.size, &by_new.shadow[0], &truth.shadow[0]),
         ],
         measures: vec![
             Measure::at_most("room: false shadow away from silhouettes (M2)", m2(&by_new), "share", 0.005),
@@ -128,8 +128,8 @@ fn midpoints(cx: &Context) -> anyhow::Result<Made> {
     made.panels.push(shadow_panel("thin", caption, &seen).with("map", "256²").with("thickness", "0.4"));
     made.measures.push(Measure::at_least("thin slab: false shadow of midpoints", false_new, "share", 0.02));
     made.measures.push(Measure::info("thin slab: the old algorithm with a bias of 3 to 4 texels", false_old, "share"));
-    made.note = "The midpoint fails where two surfaces are so near to each other that half their distance is less than a texel's depth step: the \
-                 thin slab shadows itself in stripes."
+    made.note = "Midpoints fail where two surfaces are so close together that half their distance is less than a texel's depth step: the thin \
+                 slab shadows itself in stripes."
         .into();
     Ok(made)
 }

@@ -47,7 +47,7 @@ impl BurleyListing {
     }
 }
 
-/// One texel that is looked at.
+/// One texel that is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// Distance of the sample from the point, in the unit of the search radius.
@@ -56,7 +56,7 @@ pub struct Sample {
     pub depth: f32,
 }
 
-/// `sampleDepth`: the weighted mean depth of the occluders, and 0 for none, which a depth may be as well.
+/// `sampleDepth`: the weighted mean depth of the occluders, and 0 for none, although 0 can also be a depth.
 pub fn sample_depth(
     listing: &BurleyListing,
     depth: f32,
@@ -73,7 +73,7 @@ pub fn sample_depth(
     if total > 0.0 { sum / total } else { sum }
 }
 
-/// `sampleBlur`: the fraction of the samples that are nearer. The listing calls it without its point; 0 without samples.
+/// `sampleBlur`: the fraction of the samples that are nearer. The listing omits the point from the call; 0 without samples.
 pub fn sample_blur(listing: &BurleyListing, depth: f32, samples: impl IntoIterator<Item = Sample>) -> f32 {
     let (mut occluded, mut count) = (0u32, 0u32);
     for sample in samples {
@@ -88,7 +88,7 @@ pub fn soft_radius(min: f32, max: f32, occluder: f32, depth: f32) -> f32 {
     if depth == 0.0 { min } else { min + (max - min) * (1.0 - occluder / depth) }
 }
 
-/// `softShadow` for a point at (x, y) texels and depth z of a map, radii in texels. Negative radii are looked up by their size; without an
+/// `softShadow` for a point at (x, y) texels and depth z of a map, radii in texels. Negative radii are used by their absolute value; without an
 /// occluder in the search the point is lit, whatever the blur would have met.
 pub fn soft_shadow<M: DepthMap>(listing: &BurleyListing, map: &M, point: Vec3, min: f32, max: f32) -> f32 {
     let at = point.truncate();

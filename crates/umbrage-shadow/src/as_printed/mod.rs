@@ -1,6 +1,6 @@
-//! What the printed listings do, misprints included, for the errata figures and their tests only.
+//! The printed listings as they stand, misprints included, for the errata figures and their tests only.
 //!
-//! The behaviour is reproduced, not the scans' garble, and never a panic or a division by zero.
+//! Their behaviour is reproduced, without the garbled characters of the scans, and without panics or divisions by zero.
 //!
 //! * Reeves, Salesin & Cook 1987, Fig. 4: [`sample_shadow`] and what it takes.
 //! * Wang & Molnar 1994, Fig. 10: [`percent_illumination`].

@@ -1,13 +1,13 @@
-//! Reeves, Salesin & Cook 1987, Fig. 4. Where the listing divides by zero, guards answer.
+//! Reeves, Salesin & Cook 1987, Fig. 4. Where the listing divides by zero, guards give a result.
 //!
-//! What only concerns the language is Rust's here: garbled declarations, `floor` and `ceil` declared without their type,
+//! Matters of language alone are as in Rust here: garbled declarations, `floor` and `ceil` declared without their type,
 //! a bitwise `|` between truth values, the order of the array's indices. The cull's inclusive rectangle with
 //! floor and ceiling is kept as printed, like the square map.
 
 use glam::IVec2;
 use umbrage_depth::DepthMap;
 
-/// Which range the listing's `Rand()` has; it uses one function for the jitter and for the bias.
+/// The range of the listing's `Rand()`, which serves for both the jitter and the bias.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RandRange {
     /// \[0, 1): jitter reaches only the upper half of each cell.
@@ -16,12 +16,12 @@ pub enum RandRange {
     Signed,
 }
 
-/// What the caller hands over as `sres`, `tres`.
+/// What the caller passes as `sres`, `tres`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FootprintConvention {
     /// Half-extents, as the listing uses them: the value passes through unchanged.
     HalfExtent,
-    /// Full sizes, as the text speaks of them: halved first.
+    /// Full sizes, as in the paper's text: halved first.
     FullSize,
 }
 
@@ -82,7 +82,7 @@ pub struct TextureRect {
     pub vmax: i32,
 }
 
-/// Sample counts as the listing computes them, and how often a guard had to answer.
+/// Sample counts as the listing computes them, and how often a guard was needed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts {
     /// Samples along s.

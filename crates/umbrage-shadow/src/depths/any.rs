@@ -1,6 +1,4 @@
-use super::{
-    BiasCone, Biased, Compared, Moved, NormalOffset, OnPlane, ReceiverDepth, SlopeScaled, biased, cone, plane,
-};
+use super::{BiasCone, Biased, Compared, Moved, NormalOffset, OnPlane, SlopeScaled, biased, cone, plane};
 use fearless_simd::{Simd, f32x16};
 use umbrage_plane::{DepthRange, Footprint, Receiver, TexelRect, View};
 use umbrage_sample::Taps;
@@ -35,22 +33,7 @@ impl AnyDepth {
     }
 }
 
-impl ReceiverDepth for AnyDepth {
-    #[inline(always)]
-    fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
-        self.ready(view, receiver).lanes(simd, taps)
-    }
-
-    #[inline(always)]
-    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
-        self.ready(view, receiver).bounds(rect)
-    }
-
-    #[inline(always)]
-    fn prepared<'a>(&'a self, view: &'a View, receiver: &'a Receiver) -> impl Compared + 'a {
-        self.ready(view, receiver)
-    }
-}
+by_what_is_ready!(AnyDepth);
 
 /// [`AnyDepth`] of one receiver.
 #[derive(Clone, Copy)]

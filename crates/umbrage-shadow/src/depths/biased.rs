@@ -1,16 +1,16 @@
-use super::{Compared, ReceiverDepth};
+use super::Compared;
 use fearless_simd::{Simd, f32x16, prelude::*};
 use umbrage_plane::{Bias, DepthRange, Receiver, TexelRect, View};
 use umbrage_sample::{Taps, radical_inverses};
 
-/// How a bias is taken from its range at each tap.
+/// How a bias is chosen from its range at each tap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Spread {
     /// At random (Reeves 1987): a surface that curves away shadows itself gradually, with noise.
     #[default]
     Random,
     /// As a ramp: tap k takes the radical inverse of k, so that the taps of a region share the range without noise; evenly when
-    /// they are a power of two. Bias and place in the region then go together, as taps come row by row.
+    /// they are a power of two. Bias and place in the region are then correlated, as taps come row by row.
     Ramp,
 }
 
@@ -22,7 +22,7 @@ pub struct Biased {
     pub low: Bias,
     /// Largest bias; equal to `low` for a fixed bias. Never reached exactly when it differs.
     pub high: Bias,
-    /// How a tap's bias is taken from the range.
+    /// How a tap's bias is chosen from the range.
     pub spread: Spread,
 }
 
@@ -55,22 +55,7 @@ impl Default for Biased {
     }
 }
 
-impl ReceiverDepth for Biased {
-    #[inline(always)]
-    fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
-        self.ready(view, receiver).lanes(simd, taps)
-    }
-
-    #[inline(always)]
-    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
-        self.ready(view, receiver).bounds(rect)
-    }
-
-    #[inline(always)]
-    fn prepared<'a>(&'a self, view: &'a View, receiver: &'a Receiver) -> impl Compared + 'a {
-        self.ready(view, receiver)
-    }
-}
+by_what_is_ready!(Biased);
 
 /// [`Biased`] of one receiver.
 #[derive(Clone, Copy)]

@@ -1,30 +1,30 @@
-use super::{Compared, ReceiverDepth};
+use super::Compared;
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::DVec2;
 use umbrage_plane::{Bias, DepthRange, Kind, Receiver, TexelRect, View, floor_texel};
 use umbrage_sample::Taps;
 
-/// From where to where a [`BiasCone`] measures (Burley 2006).
+/// The distance that a [`BiasCone`] measures (Burley 2006).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Radius {
     /// To the place in the texel that is read where its depth was taken: the centre, or its own offset in a stochastic map.
     #[default]
     TexelCentre,
-    /// To the tap itself, as the note prints it. Needs a base of τ·tanθ/√2 besides, and twice that in a stochastic map, whose
+    /// To the tap itself, as the note prints it. Needs a base of τ·tanθ/√2 in addition, and twice that in a stochastic map, whose
     /// samples lie up to a whole diagonal of a texel away.
     Nominal,
 }
 
-/// The bias cone: the receiver's depth falls toward the light with the distance of the place that is looked at
+/// The bias cone: the receiver's depth falls toward the light with the distance of the place that is looked up
 /// (Burley 2006).
 ///
-/// Distances are in world units on the plane square to the light's axis through the receiver, so that `slope` is the tangent of the steepest
+/// Distances are in world units on the plane perpendicular to the light's axis through the receiver, so that `slope` is the tangent of the steepest
 /// tilt that is free of false shadow. That is certain with [`Radius::TexelCentre`], whatever the texel, in maps of
-/// axial and of screen depth, but for rounding at the very tip (see `base`).
+/// axial and of screen depth, except for rounding at the very tip (see `base`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BiasCone {
-    /// Bias at the cone's tip, world units, from 0. A receiver exactly on a sample of the map wants the rounding of stored depths, some 10⁻⁶ of
+    /// Bias at the cone's tip, world units, from 0. A receiver exactly on a sample of the map needs the rounding of stored depths, some 10⁻⁶ of
     /// its distance; elsewhere the slope covers it.
     pub base: f32,
     /// World units of bias for each world unit of distance, from 0. 2 is the note's production value, 63.4°; 1 is 45°.
@@ -58,22 +58,7 @@ impl BiasCone {
     }
 }
 
-impl ReceiverDepth for BiasCone {
-    #[inline(always)]
-    fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
-        self.ready(view, receiver).lanes(simd, taps)
-    }
-
-    #[inline(always)]
-    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
-        self.ready(view, receiver).bounds(rect)
-    }
-
-    #[inline(always)]
-    fn prepared<'a>(&'a self, view: &'a View, receiver: &'a Receiver) -> impl Compared + 'a {
-        self.ready(view, receiver)
-    }
-}
+by_what_is_ready!(BiasCone);
 
 /// [`BiasCone`] of one receiver.
 #[derive(Clone, Copy)]
@@ -138,7 +123,7 @@ impl Compared for Ready<'_> {
 
     #[inline(always)]
     fn settled(&self, rect: TexelRect, stored: DepthRange) -> Option<bool> {
-        // Where one end of the bounds lies between what is stored, the other cannot change that.
+        // Where one end of the bounds lies within the stored range, the other cannot change that.
         let max = self.nearest(rect);
         if max <= stored.min {
             Some(false)
@@ -151,14 +136,14 @@ impl Compared for Ready<'_> {
 }
 
 impl Ready<'_> {
-    /// No depth is smaller: that where the rectangle is farthest from the tip.
+    /// The smallest depth: that where the rectangle is farthest from the tip.
     #[inline(always)]
     fn farthest(&self, rect: TexelRect) -> f32 {
         let (low, high) = (rect.min.as_dvec2() - self.tip, rect.max.as_dvec2() - self.tip);
         self.at((low.abs().max(high.abs()) * self.world).length()).next_down()
     }
 
-    /// No depth is larger.
+    /// The largest depth.
     #[inline(always)]
     fn nearest(&self, rect: TexelRect) -> f32 {
         let (low, high) = (rect.min.as_dvec2() - self.tip, rect.max.as_dvec2() - self.tip);

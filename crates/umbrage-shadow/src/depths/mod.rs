@@ -1,5 +1,42 @@
 //! Which depth is compared: the third of the three choices.
 
+/// [`ReceiverDepth`] of a type whose function `ready` prepares it for one receiver: all three functions are those of what that returns.
+macro_rules! by_what_is_ready {
+    ($type:ty) => {
+        impl $crate::ReceiverDepth for $type {
+            #[inline(always)]
+            fn lanes<S: fearless_simd::Simd>(
+                &self,
+                simd: S,
+                view: &umbrage_plane::View,
+                receiver: &umbrage_plane::Receiver,
+                taps: &umbrage_sample::Taps<S>,
+            ) -> fearless_simd::f32x16<S> {
+                $crate::Compared::lanes(&self.ready(view, receiver), simd, taps)
+            }
+
+            #[inline(always)]
+            fn bounds(
+                &self,
+                view: &umbrage_plane::View,
+                receiver: &umbrage_plane::Receiver,
+                rect: umbrage_plane::TexelRect,
+            ) -> umbrage_plane::DepthRange {
+                $crate::Compared::bounds(&self.ready(view, receiver), rect)
+            }
+
+            #[inline(always)]
+            fn prepared<'a>(
+                &'a self,
+                view: &'a umbrage_plane::View,
+                receiver: &'a umbrage_plane::Receiver,
+            ) -> impl $crate::Compared + 'a {
+                self.ready(view, receiver)
+            }
+        }
+    };
+}
+
 mod any;
 mod biased;
 mod cone;
@@ -26,8 +63,8 @@ pub trait ReceiverDepth: Send + Sync {
     /// Encloses every value that [`ReceiverDepth::lanes`] can return for taps inside `rect`, rounding included.
     fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange;
 
-    /// The same for one receiver: what all of its taps and its bounds have in common is made once. A depth for which that is nothing
-    /// leaves this alone; where it is overridden, the bits are those of the other two functions.
+    /// The same for one receiver: what all of its taps and its bounds have in common is made once. A depth that has nothing to
+    /// prepare does not override this; where it is overridden, the bits are those of the other two functions.
     #[inline(always)]
     fn prepared<'a>(&'a self, view: &'a View, receiver: &'a Receiver) -> impl Compared + 'a {
         Unprepared { depth: self, view, receiver }
@@ -36,7 +73,7 @@ pub trait ReceiverDepth: Send + Sync {
 
 /// A [`ReceiverDepth`] of one receiver.
 pub trait Compared {
-    /// Where it is looked for what a filter looks for in `region`: the region itself, unless the receiver is moved sideways before it is looked up.
+    /// The region that is looked up in place of `region`: the region itself, unless the receiver is moved sideways before it is looked up.
     /// Taps and rectangles are those of this region.
     #[inline(always)]
     fn region(&self, region: &Footprint) -> Footprint {
@@ -57,7 +94,7 @@ pub trait Compared {
     }
 }
 
-/// The answer of two ranges.
+/// The result of comparing two ranges.
 #[inline(always)]
 fn by_bounds(compared: DepthRange, stored: DepthRange) -> Option<bool> {
     if compared.max <= stored.min {

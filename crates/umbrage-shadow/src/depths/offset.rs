@@ -1,4 +1,4 @@
-use super::{Compared, ReceiverDepth};
+use super::Compared;
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::Vec2;
 use umbrage_plane::{Bias, DepthRange, Footprint, Receiver, TexelRect, View};
@@ -10,15 +10,15 @@ pub enum OffsetGrowth {
     /// Not at all: as Bevy and Unity's HDRP offset a receiver.
     #[default]
     Even,
-    /// By sin θ, nothing where the surface faces the light: as Filament and Babylon.js do. Off the axis of a spot light a surface that faces it has another depth
-    /// from texel to texel all the same, for which this is too little.
+    /// By sin θ, nothing where the surface faces the light: as Filament and Babylon.js do. Off the axis of a spot light, the depth of a surface that faces it
+    /// still changes from texel to texel, and this is too little for it.
     Sine,
     /// By 1 − cos θ: as Unity's URP does, and Godot for spot lights.
     Versine,
 }
 
 impl OffsetGrowth {
-    /// The factor for a cosine between normal and light, from 0 to 1. Surfaces that face away are taken as if they were looked at from behind.
+    /// The factor for a cosine between normal and light, from 0 to 1. Surfaces that face away are treated as if seen from behind.
     #[inline(always)]
     pub fn of(self, facing: f64) -> f64 {
         let cosine = facing.abs().min(1.0);
@@ -33,18 +33,19 @@ impl OffsetGrowth {
 /// The receiver moved along its geometric normal, to the side that the light is on, before it is looked up: elsewhere in the map, and at another depth
 /// (Holbert 2011, *Saying Goodbye to Shadow Acne*, and engines since).
 ///
-/// On a plane at an angle θ to parallel light, an offset of s world units leaves what is compared s/cos θ before the plane. With an offset of w texels
+/// On a plane at an angle θ to parallel light, an offset of s world units puts the compared depth s/cos θ in front of the plane. With an offset of w texels
 /// (τ world units each) that is more than the plane changes over h texels along both axes, √2·h·τ·tan θ, wherever w is more than √2·h·sin θ: so an
-/// offset of √2·h texels, or of as many times [the sine](OffsetGrowth::Sine), is free of false shadow at any tilt. Unlike a bias it does not grow without bounds at
+/// offset of √2·h texels, or of as many times [the sine](OffsetGrowth::Sine), is free of false shadow at any tilt. Unlike a bias it does not grow without
+/// bounds at
 /// grazing light; but shadows move sideways by up to the offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct NormalOffset {
     /// Widths of a texel at the receiver: τ, the larger of both axes.
     pub texels: f32,
-    /// How it grows at grazing light.
+    /// How it grows at grazing angles.
     pub growth: OffsetGrowth,
-    /// Moves the receiver toward the light besides.
+    /// Also moves the receiver toward the light.
     pub bias: Bias,
 }
 
@@ -71,24 +72,9 @@ impl NormalOffset {
     }
 }
 
-impl ReceiverDepth for NormalOffset {
-    #[inline(always)]
-    fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
-        self.ready(view, receiver).lanes(simd, taps)
-    }
+by_what_is_ready!(NormalOffset);
 
-    #[inline(always)]
-    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
-        self.ready(view, receiver).bounds(rect)
-    }
-
-    #[inline(always)]
-    fn prepared<'a>(&'a self, view: &'a View, receiver: &'a Receiver) -> impl Compared + 'a {
-        self.ready(view, receiver)
-    }
-}
-
-/// A receiver that was moved before it is looked up: what a [`ReceiverDepth`] with an offset prepares.
+/// A receiver that was moved before it is looked up: what a [`ReceiverDepth`](crate::ReceiverDepth) with an offset prepares.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moved {
     /// From where the receiver is in the map to where it is looked up, texels.

@@ -1,9 +1,9 @@
-use super::{Compared, ReceiverDepth, by_bounds};
+use super::{Compared, by_bounds};
 use fearless_simd::{Simd, f32x16, prelude::*};
 use umbrage_plane::{Bias, DepthPlane, DepthRange, Kind, Receiver, Sampling, TexelRect, View, floor_texel};
 use umbrage_sample::Taps;
 
-/// The receiver's tangent plane where the texel that is read was sampled, moved toward the light
+/// The receiver's tangent plane at the place where the texel that is read was sampled, moved toward the light
 /// (the virtual sample of Wang & Molnar 1994).
 ///
 /// A plane then needs no bias for slope, only for rounding. One that is edge-on to the light has the receiver's own depth everywhere; one whose
@@ -13,10 +13,10 @@ use umbrage_sample::Taps;
 pub struct OnPlane {
     /// Moves the whole plane toward the light.
     pub bias: Bias,
-    /// Moves it by so many times the rounding of its own depths: 4·10⁻⁶ of screen depth, 10⁻⁶ of other depths, both over |N·L|
+    /// Moves it by this many times the rounding of its own depths: 4·10⁻⁶ of screen depth, 10⁻⁶ of other depths, both over |N·L|
     /// (Wang & Molnar 1994). 1 lets a flat sheet be its own second surface.
     pub slack: f32,
-    /// The plane's depth goes no farther than this from the receiver's own, in the map's units; +∞ lets it (Wang & Molnar 1994).
+    /// The plane's depth goes no farther than this from the receiver's own, in the map's units; +∞ does not limit it (Wang & Molnar 1994).
     pub reach: f32,
 }
 
@@ -51,35 +51,20 @@ impl OnPlane {
     #[inline(always)]
     fn shift(&self, view: &View, receiver: &Receiver) -> f32 {
         let rounding = if view.kind() == Kind::Screen { 4e-6 } else { 1e-6 * receiver.depth.abs() };
-        // At the least cosine that Wang & Molnar's rule looks at.
+        // At the least cosine for which Wang & Molnar's rule compares planes.
         let slack = self.slack * rounding / receiver.facing.abs().max(0.02);
         (receiver.nearer(view, self.bias) - receiver.depth) - slack
     }
 }
 
-impl ReceiverDepth for OnPlane {
-    #[inline(always)]
-    fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
-        self.ready(view, receiver).lanes(simd, taps)
-    }
-
-    #[inline(always)]
-    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
-        self.ready(view, receiver).bounds(rect)
-    }
-
-    #[inline(always)]
-    fn prepared<'a>(&'a self, view: &'a View, receiver: &'a Receiver) -> impl Compared + 'a {
-        self.ready(view, receiver)
-    }
-}
+by_what_is_ready!(OnPlane);
 
 /// [`OnPlane`] of one receiver.
 #[derive(Clone, Copy)]
 pub(super) struct Ready {
     plane: DepthPlane,
     sampling: Sampling,
-    /// Depths of the plane are kept from here, before it is moved,
+    /// Depths of the plane are limited, before it is moved, from here
     low: f32,
     /// to here.
     high: f32,
@@ -114,7 +99,7 @@ impl Compared for Ready {
 
     #[inline(always)]
     fn settled(&self, rect: TexelRect, stored: DepthRange) -> Option<bool> {
-        // The bounds lie around all corners: one that lies between what is stored leaves everything open.
+        // The bounds enclose all corners: one that lies within the stored range leaves everything open.
         let corner = self.moved(self.plane.at(rect.min.as_dvec2()));
         if corner > stored.min && corner <= stored.max {
             return None;

@@ -1,23 +1,22 @@
-use super::{Compared, ReceiverDepth, biased};
-use fearless_simd::{Simd, f32x16};
-use umbrage_plane::{Bias, DepthRange, Receiver, TexelRect, View};
-use umbrage_sample::Taps;
+use super::biased;
+use umbrage_plane::{Bias, Receiver, View};
 
 /// The receiver's own depth, moved toward the light by a constant part and by one that grows with its slope: the depth bias of rasterisers (Direct3D 11,
-/// *Depth Bias*; Vulkan 1.3, *Depth Bias Computation*), said of the receiver and in linear depth.
+/// *Depth Bias*; Vulkan 1.3, *Depth Bias Computation*), but of the receiver and in linear depth.
 ///
-/// The slope is [`Receiver::steeper_steps`]: the change of the receiver's plane from texel to texel, a row's or a column's, whichever is larger. For a point that
+/// The slope is [`Receiver::steeper_steps`]: the change of the receiver's plane from texel to texel, a row's or a column's, whichever is larger. For a point
+/// that
 /// is compared with its own texel alone, 1 is free of false shadow at any tilt up to the clamp: within half a texel along both axes a plane
 /// changes by no more than that. A filter that looks `half` texels to each side of its point, and reads texels whose centres lie as far from it, takes 2 × `half`.
-/// Rounding of stored depths wants a little besides, which is what `constant` is for.
+/// Rounding of stored depths needs a little more, which is what `constant` is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SlopeScaled {
-    /// What every receiver is moved by.
+    /// The constant part, by which every receiver is moved.
     pub constant: Bias,
     /// Texels: steps of depth from one to the next, from 0.
     pub slope: f32,
-    /// Both parts together move no farther than this, world units; +∞ lets them (`DepthBiasClamp`).
+    /// Both parts together move no farther than this, world units; +∞ does not limit them (`DepthBiasClamp`).
     pub most: f32,
 }
 
@@ -44,19 +43,4 @@ impl SlopeScaled {
     }
 }
 
-impl ReceiverDepth for SlopeScaled {
-    #[inline(always)]
-    fn lanes<S: Simd>(&self, simd: S, view: &View, receiver: &Receiver, taps: &Taps<S>) -> f32x16<S> {
-        self.ready(view, receiver).lanes(simd, taps)
-    }
-
-    #[inline(always)]
-    fn bounds(&self, view: &View, receiver: &Receiver, rect: TexelRect) -> DepthRange {
-        self.ready(view, receiver).bounds(rect)
-    }
-
-    #[inline(always)]
-    fn prepared<'a>(&'a self, view: &'a View, receiver: &'a Receiver) -> impl Compared + 'a {
-        self.ready(view, receiver)
-    }
-}
+by_what_is_ready!(SlopeScaled);

@@ -19,12 +19,13 @@ pub enum VirtualWhen {
 /// the receiver's tangent plane is compared at each of them instead (Wang & Molnar 1994, §3 and Fig. 10).
 ///
 /// The nearby texels are those of `pattern` over the receiver's region times `res_factor`, of at least `min_size` half-extent. With
-/// [`EveryTexel`]: 0 and 1 are the nearest four, 0 and n/2 a box of n × n, 1 and 1 the region's own, at least 2 × 2.
+/// [`EveryTexel`], a `res_factor` and `min_size` of 0 and 1 are the nearest four, 0 and n/2 a box of n × n, and 1 and 1 the region's own texels, at least 2 ×
+/// 2.
 /// [`Tent`](umbrage_sample::Tent) weighs them by nearness.
 ///
 /// Departures from the printed listing, by the errata of [`as_printed`](crate::as_printed): (1) counts begin at 0 and are divided as
-/// fractions; (2) equality is lit at virtual samples too, within their rounding; (3) places outside the map answer by
-/// the view's rules; (4) there is a bias, of 0; (5) planes that nearly hold the light's ray fall back on plain comparison,
+/// fractions; (2) equality is lit at virtual samples too, within their rounding; (3) the view's rules settle places
+/// outside the map; (4) there is a bias, of 0; (5) planes that nearly contain the light's ray fall back on plain comparison,
 /// and beyond a plane's horizon its depth is +∞.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -33,16 +34,16 @@ pub struct Conditional<P = EveryTexel> {
     pub pattern: P,
     /// Multiplies the region's size.
     pub res_factor: f32,
-    /// Least half-extent of the region after that, in texels. Stochastic maps want 1.5: the samples of three by three texels surround the point,
-    /// those of the nearest four may all lie to one side, and a steep sheet's own all nearer.
+    /// Least half-extent of the region after that, in texels. Stochastic maps need 1.5: the samples of three by three texels surround the point,
+    /// while those of the nearest four may all lie to one side of it, and on a steep sheet all be nearer.
     pub min_size: f32,
-    /// The virtual samples. Its bias is that of plain comparison too.
+    /// The virtual samples. Its bias also applies to plain comparison.
     pub plane: OnPlane,
-    /// Below this |cosine| between surface and light only plain comparison counts.
+    /// Below this |cosine| between normal and light only plain comparison counts.
     pub min_cos: f32,
     /// When virtual samples are taken.
     pub when: VirtualWhen,
-    /// Whether what faces away from the light is dark without a look: it is by its own shading, if that is max(N·L, 0) (Wang & Molnar 1994).
+    /// Whether surfaces that face away from the light are dark without a look-up: shading darkens them anyway, if it is max(N·L, 0) (Wang & Molnar 1994).
     pub dark_backs: bool,
 }
 
@@ -71,7 +72,7 @@ umbrage_plane::builders!([P] Conditional<P> {
 });
 
 impl<P> Conditional<P> {
-    /// The same, looking elsewhere.
+    /// The same with another pattern.
     #[must_use]
     pub fn with_pattern<Q: Pattern>(self, pattern: Q) -> Conditional<Q> {
         let Self { res_factor, min_size, plane, min_cos, when, dark_backs, .. } = self;

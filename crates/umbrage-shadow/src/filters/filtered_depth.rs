@@ -4,11 +4,11 @@ use umbrage_depth::DepthMap;
 use umbrage_plane::Bias;
 use umbrage_sample::{EveryTexel, Pattern};
 
-/// The control of Reeves' Figure 2a: filter the depths, then compare once. The answer is 0 or 1, and near an edge it means nothing.
+/// The control of Reeves' Figure 2a: filter the depths, then compare once. The result is 0 or 1, and near an edge it is meaningless.
 ///
-/// A region that holds a texel without a surface has a mean of +∞ and is lit; one whose point lies outside the map or the cone answers
-/// by the view's rules. Over a deep map the mean is weighted by what each surface stops, and the answer is 0 or what all of them stop
-/// together.
+/// A region that holds a texel without a surface has a mean of +∞ and is lit; one whose point lies outside the map or the cone is
+/// settled by the view's rules. Over a deep map the mean is weighted by the fraction of light that each surface stops, and the result is 0 or the fraction
+/// that all of them stop together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FilteredDepth<P = EveryTexel> {
@@ -30,7 +30,7 @@ impl Default for FilteredDepth {
 umbrage_plane::builders!([P] FilteredDepth<P> { with_bias bias: Bias, with_res_factor res_factor: f32 });
 
 impl<P> FilteredDepth<P> {
-    /// The same, looking elsewhere.
+    /// The same with another pattern.
     #[must_use]
     pub fn with_pattern<Q: Pattern>(self, pattern: Q) -> FilteredDepth<Q> {
         let Self { bias, res_factor, .. } = self;

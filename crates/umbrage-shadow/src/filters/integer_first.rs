@@ -24,8 +24,8 @@ pub fn behind(receiver: f32, stored: f32, unit: f32) -> (bool, bool) {
 /// Percentage-closer filtering without bias, comparing whole units before fractions: Woo's economy of floating-point work
 /// (Woo 1992). Meant for midpoint maps.
 ///
-/// Answers as [`Pcf`](crate::Pcf) with a bias of 0 does, bit for bit; a [`Probe`] counts how often whole units settled it. On today's machines it
-/// saves nothing. Deep maps answer by what passes, and count no comparison.
+/// The result is that of [`Pcf`](crate::Pcf) with a bias of 0, bit for bit; a [`Probe`] counts how often whole units settled it. On today's machines it
+/// saves nothing. Over deep maps it uses the light that passes, and counts no comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct IntegerFirst<P = Jittered> {
@@ -35,7 +35,7 @@ pub struct IntegerFirst<P = Jittered> {
     pub res_factor: f32,
     /// Least half-extent of the region after that, in texels.
     pub min_size: f32,
-    /// What is counted as one, in the map's units; above 0.
+    /// The size of a whole unit, in the map's units; above 0.
     pub unit: f32,
 }
 
@@ -49,7 +49,7 @@ impl Default for IntegerFirst {
 umbrage_plane::builders!([P] IntegerFirst<P> { with_res_factor res_factor: f32, with_min_size min_size: f32, with_unit unit: f32 });
 
 impl<P> IntegerFirst<P> {
-    /// The same, looking elsewhere.
+    /// The same with another pattern.
     #[must_use]
     pub fn with_pattern<Q: Pattern>(self, pattern: Q) -> IntegerFirst<Q> {
         let Self { res_factor, min_size, unit, .. } = self;

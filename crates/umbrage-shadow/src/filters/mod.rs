@@ -1,4 +1,4 @@
-//! How the answers are combined: each filter is one way to ask a [`Query`](crate::Query).
+//! How results are combined: each filter is one way to use a [`Query`](crate::Query).
 
 mod conditional;
 mod dual_plane;

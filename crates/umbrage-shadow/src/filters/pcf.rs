@@ -5,11 +5,11 @@ use umbrage_sample::{Jittered, Pattern};
 
 /// Percentage-closer filtering (Reeves, Salesin & Cook 1987, §2, §3.2 and Fig. 4).
 ///
-/// Each texel under the region becomes "nearer or not", and those answers are averaged.
+/// Each texel under the region becomes "nearer or not", and those results are averaged.
 ///
 /// Departures from the printed listing, by the errata of [`as_printed`](crate::as_printed): (1) both half-extents get their minimum;
 /// (2) sample counts are clamped in an order that cannot divide by zero; (3) jitter spans whole cells;
-/// (4) positions are floored; (5) samples outside the map or the cone answer by the view's rules;
+/// (4) positions are floored; (5) samples outside the map or the cone are settled by the view's rules;
 /// (6) the cull uses depth ranges and never changes a result.
 ///
 /// ```
@@ -44,14 +44,14 @@ impl Default for Pcf {
 umbrage_plane::builders!([P, D] Pcf<P, D> { with_res_factor res_factor: f32, with_min_size min_size: f32, with_cull cull: bool });
 
 impl<P, D> Pcf<P, D> {
-    /// The same, looking elsewhere.
+    /// The same with another pattern.
     #[must_use]
     pub fn with_pattern<Q: Pattern>(self, pattern: Q) -> Pcf<Q, D> {
         let Self { depth, res_factor, min_size, cull, .. } = self;
         Pcf { pattern, depth, res_factor, min_size, cull }
     }
 
-    /// The same, comparing another depth.
+    /// The same with another compared depth.
     #[must_use]
     pub fn with_depth<E: ReceiverDepth>(self, depth: E) -> Pcf<P, E> {
         let Self { pattern, res_factor, min_size, cull, .. } = self;

@@ -5,14 +5,14 @@ use umbrage_depth::DepthMap;
 use umbrage_plane::{Bias, Footprint, Kind, Projection, Receiver, View};
 use umbrage_sample::{Density, Disc};
 
-/// A radius on the map, from 0; +∞ is more than the map has. The unit is part of the type.
+/// A radius on the map, from 0; +∞ reaches beyond the map. The unit is part of the type.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MapRadius {
     /// Texels.
     Texels(f32),
     /// Fraction of the map's width and height.
     Fraction(f32),
-    /// World units on the plane square to the light's axis through the receiver.
+    /// World units on the plane perpendicular to the light's axis through the receiver.
     World(f32),
 }
 
@@ -34,17 +34,17 @@ impl MapRadius {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Softness {
     /// Burley's: from `min` where the occluder touches the receiver to `max` where it is at the light, by 1 − z̄/z_p. Occluders are searched
-    /// within `max`. A disc light's own penumbra for one distance of occluders only.
+    /// within `max`. It is a disc light's own penumbra for one distance of occluders only.
     ///
-    /// Parallel light comes from nowhere: there `max` is reached where the occluder is as far from the receiver as the map is
+    /// Parallel light has no distance: there `max` is reached where the occluder is as far from the receiver as the map is
     /// wide, in world units, over the larger of its sides.
     Between {
         /// Radius at contact.
         min: MapRadius,
-        /// Largest radius and the search's.
+        /// Largest radius, and the radius of the search.
         max: MapRadius,
     },
-    /// Physical: the penumbra of a disc that stands for the light. Half a texel at contact.
+    /// Physical: the penumbra of a disc that stands for the light. It is half a texel at contact.
     Light {
         /// Radius of the disc in world units; of a directional light, the tangent of its angular radius (the sun: .00465).
         radius: f32,
@@ -68,7 +68,7 @@ impl Softness {
     fn search(self, view: &View, receiver: &Receiver, distance: f32) -> Vec2 {
         match self {
             Self::Between { min, max } => max.texels(view, receiver).max(min.texels(view, receiver)),
-            // What is nearer than the near plane stands at it in the map.
+            // The map stores what is nearer than the near plane at that plane.
             Self::Light { nearest, .. } => {
                 let near = view.near() as f32;
                 let bound = if view.is_perspective() { nearest.max(near) } else { near };
@@ -95,7 +95,7 @@ impl Softness {
                 // Seen from the light, the half penumbra has the tangent ℓ/2·(1/ζ_o − 1/ζ_r); at the receiver it is ζ_r as wide.
                 let scale = if view.is_perspective() { 1.0 / mean } else { 1.0 };
                 let world = radius * (distance - mean).max(0.0) * scale;
-                // At contact still as wide as bilinear look-up: the texel itself must not show.
+                // Even at contact it is as wide as a bilinear look-up, so that single texels do not show.
                 (Vec2::splat(if world.is_finite() { world } else { f32::MAX }) / receiver.texel_world)
                     .max(Vec2::splat(0.5))
             }
@@ -103,7 +103,7 @@ impl Softness {
     }
 }
 
-/// How occluders count by their distance from the search's centre (Burley 2006).
+/// The weight of occluders by their distance from the search's centre (Burley 2006).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum OccluderFalloff {
     /// From 1 at the centre in a straight line to `rim`, above 0 and at most 1, at the search's radius. Burley's rim is 0.1.
@@ -140,7 +140,7 @@ impl OccluderFalloff {
     }
 }
 
-/// A shadow's density by the way from occluder to receiver (Burley 2006).
+/// A shadow's density by the distance from occluder to receiver (Burley 2006).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Opacity {
@@ -150,7 +150,7 @@ pub struct Opacity {
     pub far: f32,
     /// World units after which the density is `far`, above 0; +∞ for `near` everywhere.
     pub fade: f32,
-    /// Shapes the way between: the fraction of `fade` is raised to this power before it is smoothed. 1 leaves it alone.
+    /// Shapes the transition: the fraction of `fade` is raised to this power before it is smoothed. 1 leaves it alone.
     pub gamma: f32,
 }
 
@@ -201,12 +201,13 @@ impl Mean {
 /// Soft shadows from one map: the mean distance of the occluders around a receiver sets how wide its shadow is blurred
 /// (Burley 2006).
 ///
-/// `depth` is compared in both passes: [`BiasCone`] is Burley's; a tangent plane or a constant bias does as well. Distances are measured from the
+/// `depth` is compared in both passes: [`BiasCone`] is Burley's; a tangent plane or a constant bias can be used, too. Distances are measured from the
 /// light: axial or Euclidean as the map stores them, and from the plane of the view's eye for directional lights. Texels outside the map are
-/// never occluders; where the view's rules say dark, it is dark whatever the opacity and whether an occluder was found or not (Woo 1992). The blur is never narrower than the receiver's own region, and no wider than a quarter of the map to each side.
+/// never occluders; where the view's rules say dark, it is dark whatever the opacity and whether an occluder was found or not (Woo 1992). The blur is never
+/// narrower than the receiver's own region, and no wider than a quarter of the map to each side.
 ///
-/// Departures from the printed listing, by the errata of [`as_printed`](crate::as_printed): the bias moves toward the light, the blur knows its
-/// point, *no occluder* is not a depth of 0, the factor is clamped, slope and radius are in world units.
+/// Departures from the printed listing, by the errata of [`as_printed`](crate::as_printed): the bias moves toward the light, the blur is given
+/// its point, *no occluder* is not a depth of 0, the factor is clamped, slope and radius are in world units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Soft<D = BiasCone> {
@@ -214,9 +215,9 @@ pub struct Soft<D = BiasCone> {
     pub softness: Softness,
     /// Where occluders are searched. Burley's is dense in the middle.
     pub search: Disc,
-    /// Where the shadow is looked up. Only an even density filters as a disc does.
+    /// Where the shadow is looked up. Only an even density filters as a disc light does.
     pub blur: Disc,
-    /// How occluders count.
+    /// The weights of occluders.
     pub falloff: OccluderFalloff,
     /// Which depth is compared.
     pub depth: D,
@@ -224,8 +225,8 @@ pub struct Soft<D = BiasCone> {
     pub radius_gamma: f32,
     /// Density by distance.
     pub opacity: Opacity,
-    /// Whether a receiver without occluders is still looked up at the least radius: what only the blur would have met does not
-    /// vanish at once then.
+    /// Whether a receiver without occluders is still looked up at the least radius, so that occluders that only the blur meets
+    /// do not vanish abruptly.
     pub rescue: bool,
 }
 
@@ -311,7 +312,7 @@ impl<D: ReceiverDepth> Filter for Soft<D> {
         let found = self.occluders(query, &search);
         let mean = found.unwrap_or(own);
         let region = query.region_around(self.softness.blur(view, receiver, mean, own, self.radius_gamma));
-        // What the rules alone darken, in front of everything that is stored: no occluder's opacity thins it.
+        // Shadow by the view's rules alone: no occluder's opacity makes it lighter.
         let beyond = if view.holds(region.centre, region.half) {
             0.0
         } else {

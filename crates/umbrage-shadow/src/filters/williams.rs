@@ -14,7 +14,7 @@ use umbrage_depth::DepthMap;
 use umbrage_plane::{Bias, Kind, Place, Receiver, View};
 use umbrage_sample::Key;
 
-/// How the light's depth at a point is taken from the texels around it.
+/// How the light's depth at a point is read from the texels around it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lookup {
     /// The texel that the point falls in (Williams 1978).
@@ -44,7 +44,7 @@ pub enum DitherLaw {
     /// Normal with σ = 1/6, redrawn outside ±½: standard deviation 0.16443.
     #[default]
     TruncatedNormal,
-    /// Mean of three uniform numbers less ½: standard deviation 1/6.
+    /// Mean of three uniform numbers minus ½: standard deviation 1/6.
     ThreeUniforms,
 }
 
@@ -95,7 +95,7 @@ impl Dither {
     }
 }
 
-/// Williams' test of one point. The answer is 0 or 1, except over deep maps, where it is what the surfaces stop.
+/// Williams' test of one point. The result is 0 or 1, except over deep maps, where it is the fraction of light that the surfaces stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Williams {
@@ -138,7 +138,7 @@ impl Filter for Williams {
                 let (texels, fraction) = four(view, at);
                 let surfaces = texels.map(|texel| query.texel(texel));
                 if P::EXPLAINS {
-                    // The depths are interpolated, and one answer is made of all four.
+                    // The depths are interpolated, and one result is made of all four.
                     query.probe().asked();
                     let [x, y] = fraction.to_array();
                     let weights = [(1.0 - x) * (1.0 - y), x * (1.0 - y), (1.0 - x) * y, x * y];
@@ -149,7 +149,7 @@ impl Filter for Williams {
                     }
                 }
                 if dark && query.map().translucent().is_some() {
-                    // What the surfaces of the four texels stop in all, of those that have any.
+                    // What the surfaces of those of the four texels that have any stop in all.
                     let stops = lerp(surfaces.each_ref().map(|surfaces| surfaces.dark(f32::INFINITY)), fraction);
                     let any = |surfaces: &Surfaces<'_>| f32::from(u8::from(surfaces.nearest() < f32::INFINITY));
                     let there = lerp(surfaces.each_ref().map(any), fraction);
@@ -173,8 +173,8 @@ impl Filter for Williams {
     }
 }
 
-/// The four texels whose centres lie around a texel position, clamped to the map: left and right above, left and right below. Beside
-/// them, how far the position is on the way from the first to the last, on each axis.
+/// The four texels whose centres lie around a texel position, clamped to the map: left and right above, left and right below. Also
+/// the position between the first and the last, from 0 to 1 on each axis.
 #[inline(always)]
 pub(super) fn four(view: &View, at: Vec2) -> ([IVec2; 4], Vec2) {
     let corner = (at - 0.5).floor();
@@ -228,7 +228,7 @@ pub fn observer_to_light(observer: &View, light: &View) -> DMat4 {
     light.eye_to_screen() * eye_to_eye * observer.eye_to_screen().inverse()
 }
 
-/// Subtracts `bias` (units of z_s) from the z that comes out, inside the matrix: row 3 less bias times row 4 (Williams 1978).
+/// Subtracts `bias` (units of z_s) from the z that comes out, inside the matrix: row 3 minus bias times row 4 (Williams 1978).
 pub fn fold_bias(matrix: DMat4, bias: f64) -> DMat4 {
     let rows = matrix.transpose();
     DMat4::from_cols(rows.x_axis, rows.y_axis, rows.z_axis - bias * rows.w_axis, rows.w_axis).transpose()

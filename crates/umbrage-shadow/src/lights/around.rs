@@ -13,16 +13,16 @@ use umbrage_sample::Key;
 /// Which of the views around a light a point is tested in (Williams 1978).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Evaluate {
-    /// In its own: the one whose axis is nearest to the point's direction. Samples that fall outside are answered by the
-    /// neighbour, so that filters cross seams (Reeves 1987).
+    /// In its own: the one whose axis is nearest to the point's direction. Samples that fall outside are looked up in
+    /// the neighbour, so that filters cross seams (Reeves 1987).
     #[default]
     Own,
-    /// In every one that it falls into, as if each were a light of its own; the darkest answer counts. Samples outside a view are
-    /// answered by its rules.
+    /// In every one that it falls into, as if each were a light of its own; the darkest result counts. Samples outside a view are
+    /// settled by its rules.
     Every,
 }
 
-/// Why views do not stand around one light.
+/// Why views do not surround one light.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AroundError {
@@ -45,7 +45,7 @@ pub enum AroundError {
 pub struct Around<F, M> {
     /// The filter over the maps.
     pub filter: F,
-    /// Which map answers.
+    /// Which map is looked up.
     pub evaluate: Evaluate,
     maps: Vec<M>,
 }
@@ -142,7 +142,7 @@ impl<F: Filter, M: DepthMap> Around<F, M> {
         }
     }
 
-    /// The answer of one view, 0 for a point that it does not see.
+    /// The result of one view, 0 for a point that it does not see.
     #[inline(always)]
     fn within<S: Simd, P: Probe>(
         &self,
@@ -205,7 +205,7 @@ pub(crate) fn nearest<M: DepthMap>(maps: &[M], direction: DVec3) -> usize {
     own
 }
 
-/// One of several maps around a light, whose texels outside are answered by its neighbours: every filter crosses the seams
+/// One of several maps around a light, whose texels outside are taken from its neighbours: every filter crosses the seams
 /// unchanged (Reeves 1987).
 struct Face<'a, M> {
     maps: &'a [M],
@@ -229,7 +229,7 @@ impl<M: DepthMap> Face<'_, M> {
             Kind::Axial => (view.ahead().dot(direction) / there.ahead().dot(direction)) as f32,
             Kind::Radial | Kind::Screen => 1.0,
         };
-        // On the border between two views rounding may name the texel past the last; farther out nothing is seen.
+        // On the border between two views rounding may give the texel past the last; farther out nothing is seen.
         let (at, size) = (there.eye_to_texel(seen), there.size());
         let texel = at.floor().as_ivec2();
         let border = at.clamp(DVec2::ZERO, size.as_dvec2()).abs_diff_eq(at, 1e-6);
@@ -257,7 +257,7 @@ impl<M: DepthMap> DepthMap for Face<'_, M> {
         }
     }
 
-    /// As the own view's map has it: beyond a plain one only nearest surfaces are compared.
+    /// As in the own view's map: beyond a plain map only nearest surfaces are compared.
     #[inline(always)]
     fn translucent(&self) -> Option<&dyn Translucent> {
         self.maps[self.own].translucent().map(|_| self as &dyn Translucent)
@@ -288,7 +288,7 @@ impl<M: DepthMap> DepthMap for Face<'_, M> {
     }
 }
 
-/// What a map of facets knows at a place of its finer grid.
+/// What a map of facets holds at a place of its finer grid.
 fn facet_sample(map: &impl DepthMap, at: IVec2) -> Option<FacetSample> {
     match map.facets()? {
         Facets::Map(map) => Some(map.sample(at)),

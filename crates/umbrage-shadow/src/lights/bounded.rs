@@ -8,21 +8,21 @@ use umbrage_sample::Key;
 /// Places along each side of a region at whose middle the light ends.
 const ACROSS: u32 = 4;
 
-/// A light whose own view says where it ends, whatever its maps are: lights with a size, whose maps stand at several points of it
+/// A light whose own view determines where it ends, whatever its maps are: area lights, whose maps are made from several points of them
 /// ([`View::over_disc`]), and spots that are too wide for one map ([`View::faces_ahead`]).
 ///
-/// Where a place lies behind the light, outside its map or beyond its cone, the view's rules answer; a region on that border is judged at 16 places.
+/// Where a place lies behind the light, outside its map or beyond its cone, the view's rules decide; a region on that border is judged at 16 places.
 pub struct Bounded<'a> {
     /// The light as a whole.
     pub view: View,
     /// Whether its cone alone bounds it, and not its map.
     pub by_cone: bool,
-    /// What answers inside.
+    /// The shadow inside.
     pub shadow: Box<dyn Shadow + 'a>,
 }
 
 impl Bounded<'_> {
-    /// The answer at a place of the world, where the light as a whole has one.
+    /// The result at a place in the world, where the light as a whole determines it.
     fn at(&self, point: &SurfacePoint, place: DVec3) -> Option<f32> {
         let rules = self.view.rules();
         let verdict = if self.by_cone && self.view.beyond_cone(place) {
@@ -37,7 +37,7 @@ impl Bounded<'_> {
         answer(verdict)
     }
 
-    /// The fraction of a region that the light as a whole answers, and the fraction of it that is dark by that.
+    /// The fraction of a region that the light as a whole settles, and the fraction of the region that is dark by that.
     fn settled(&self, point: &SurfacePoint) -> (f32, f32) {
         let [a, b, c, d] = point.corners();
         let share = |answers: &[Option<f32>]| {
@@ -71,7 +71,7 @@ impl Shadow for Bounded<'_> {
 
     fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
         same_length(at, fractions);
-        // What passes by colour needs the inner fractions, not those that the border is part of.
+        // What passes by colour is computed from the inner fractions, not from those that include the border.
         let mut inner = vec![0.0; at.len()];
         self.shadow.fractions(at, key, &mut inner);
         self.shadow.transmittances(at, key, &inner, out);

@@ -27,7 +27,7 @@ pub enum LatLongError {
     Depth(#[from] MapError),
 }
 
-/// A light in all directions as one map over latitude and longitude (Reeves 1987): columns go once around +y, from −x over
+/// A light in all directions as one map over latitude and longitude (Reeves 1987): columns go once around +y, from −x through
 /// −z, +x and +z back; rows from +y down to −y. Depths are Euclidean.
 ///
 /// Texels are smaller toward the poles, and regions near them wider in texels. The tangent plane is not an affine function here: only

@@ -5,10 +5,10 @@ use glam::Vec3;
 use umbrage_plane::SurfacePoint;
 use umbrage_sample::Key;
 
-/// The mean of several shadows, each of equal weight: over several times of a frame it is motion blur, over several points of a
+/// The mean of several shadows, each of equal weight: over several moments of a frame it is motion blur, over several points of a
 /// light its penumbra (Haeberli & Akeley 1990).
 ///
-/// All get the same key. Without any, everything is lit.
+/// All are given the same key. Without any shadow, everything is lit.
 pub struct Mean<'a>(pub Vec<Box<dyn Shadow + 'a>>);
 
 impl Shadow for Mean<'_> {

@@ -1,7 +1,7 @@
 //! What shading sees: lights of one map, of several around them, and of one over all directions.
 
-/// [`vectorized!`](umbrage_plane::vectorized) with the instructions that every machine has alone: for what is asked so seldom that a second
-/// compiled body of each filter would be a waste. The answers are the same bits.
+/// [`vectorized!`](umbrage_plane::vectorized) with only the instructions that every machine has: for look-ups so rare that a second
+/// compiled body of each filter would be a waste. The results are the same bits.
 macro_rules! plainly {
     ($simd:pat => $body:expr) => {{
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -37,11 +37,11 @@ use std::sync::Arc;
 use umbrage_plane::SurfacePoint;
 use umbrage_sample::Key;
 
-/// What shading sees of a shadow algorithm, and the one place where types are erased: a call answers a whole batch of regions.
-/// With the feature `rayon`, shadows over maps split batches of thousands of points over the threads of the current pool; the answers are
+/// What shading sees of a shadow algorithm, and the one place where types are erased: a call handles a whole batch of regions.
+/// With the feature `rayon`, shadows over maps split batches of thousands of points over the threads of the current pool; the results are
 /// the same bits.
 ///
-/// `key` names the picture's light; the implementor adds each point's region to it, and refuses slices of other lengths by
+/// `key` identifies the picture's light; the implementor adds each point's region to it, and refuses slices of different lengths by
 /// [`same_length`].
 pub trait Shadow: Send + Sync {
     /// The fraction in shadow of each region: 0 lit, 1 dark.
@@ -50,8 +50,8 @@ pub trait Shadow: Send + Sync {
     /// When `out` is not as long as `at`.
     fn fractions(&self, at: &[SurfacePoint], key: Key, out: &mut [f32]);
 
-    /// What passes of each region's light, linear RGB in 0..=1, where casters colour it. `fractions` are the answers of
-    /// [`Shadow::fractions`] to the same call; without colours, their complements.
+    /// What passes of each region's light, linear RGB in 0..=1, where casters colour it. `fractions` are the results of
+    /// [`Shadow::fractions`] for the same call; without colours, their complements.
     ///
     /// # Panics
     /// When `fractions` or `out` is not as long as `at`.
@@ -64,8 +64,8 @@ pub trait Shadow: Send + Sync {
         }
     }
 
-    /// What is done for one region, by each map that takes part: in the order of the maps of a light of several, whose answers may count in
-    /// part. Nothing for shadows that have no map.
+    /// What is done for one region, by each map that takes part: in the order of the maps where a light has several, of which some may
+    /// count only in part. Nothing for shadows that have no map.
     fn explain(&self, at: &SurfacePoint, key: Key) -> Vec<Explanation> {
         let _ = (at, key);
         Vec::new()
@@ -79,7 +79,7 @@ pub trait Shadow: Send + Sync {
     }
 }
 
-/// [`Shadow`] of something that stands for another one.
+/// [`Shadow`] of something that wraps another one.
 macro_rules! forward {
     ($type:ty) => {
         impl<T: Shadow + ?Sized> Shadow for $type {
@@ -117,7 +117,7 @@ impl Shadow for Unshadowed {
     }
 }
 
-/// What passes of red, green and blue light, by the fraction in shadow that `ask` gives for each.
+/// What passes of red, green and blue light, by the fraction in shadow that `ask` returns for each.
 fn by_channel(at: &[SurfacePoint], out: &mut [Vec3], mut ask: impl FnMut(Channel, &mut [f32])) {
     same_length(at, out);
     let mut dark = vec![0.0; at.len()];
@@ -129,10 +129,10 @@ fn by_channel(at: &[SurfacePoint], out: &mut [Vec3], mut ask: impl FnMut(Channel
     }
 }
 
-/// Refuses a batch that has not one answer for each point, as [`Shadow`] promises: the first line of any implementor's functions.
+/// Refuses a batch that does not have one result for each point, as [`Shadow`] promises: the first line of any implementor's functions.
 ///
 /// # Panics
-/// When `answers` is not as long as `at`. The message gives both lengths.
+/// When `answers` is not as long as `at`. The message states both lengths.
 #[track_caller]
 pub fn same_length<T>(at: &[SurfacePoint], answers: &[T]) {
     let (points, answers) = (at.len(), answers.len());

@@ -3,11 +3,11 @@
 use super::same_length;
 use umbrage_plane::SurfacePoint;
 
-/// Points of a part: so many that starting one costs nothing beside it.
+/// Points per part: enough that starting a part costs little in comparison.
 #[cfg(feature = "rayon")]
 const PART: usize = 2048;
 
-/// Calls `work` with all points and the answers that it writes: with the feature `rayon`, part by part on the threads of the current pool
+/// Calls `work` with all points and the results that it writes: with the feature `rayon`, part by part on the threads of the current pool
 /// where there are two parts or more. What is written must depend on each point alone, so that it is the same for any number of threads.
 ///
 /// # Panics

@@ -1,4 +1,4 @@
-//! What one shadow after another says of the same points.
+//! Several shadows of the same points, one after another.
 
 use super::{Shadow, same_length};
 use glam::Vec3;
@@ -23,7 +23,8 @@ pub(super) fn add_fractions(
     }
 }
 
-/// Adds what passes each shadow to what is in `out`, by `add`. A shadow's passes need its own fractions; those of all together will not do.
+/// Adds what passes each shadow to what is in `out`, by `add`. The light that passes a shadow is computed from its own fractions, not from those of all
+/// together.
 pub(super) fn add_passes(
     shadows: &[Box<dyn Shadow + '_>],
     at: &[SurfacePoint],

@@ -9,7 +9,7 @@ use umbrage_depth::{DepthMap, Translucent};
 use umbrage_plane::{Place, Receiver, SurfacePoint, vectorized};
 use umbrage_sample::Key;
 
-/// Points that are brought into the light's space together: enough for a call to cost nothing, few enough to stay in the cache.
+/// Points that are transformed to the light's space together: enough that a call costs little, few enough to stay in the cache.
 const TOGETHER: usize = 16;
 
 /// A filter over a map; the map owns its view.

@@ -6,7 +6,7 @@ use umbrage_sample::Key;
 /// The baseline by object tags: lit where the nearest object of the texel is the receiver's own, or there is none (Hourcade & Nicolas, as
 /// Wang & Molnar 1994 describe it). 0 or 1.
 ///
-/// An object never shadows itself, and where objects meet, texels of the one stand in false shadow of the other.
+/// An object never shadows itself, and where objects meet, each casts false shadow on texels of the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tags(pub TagMap);
 

@@ -5,10 +5,10 @@ use glam::Vec3;
 use umbrage_plane::SurfacePoint;
 use umbrage_sample::Key;
 
-/// A light through several sets of casters, one after another: what passes all of them. Opaque casters may then be kept in another kind of map than
+/// A light through several sets of casters, one after another: what passes all of them. Opaque casters can then be kept in another kind of map than
 /// transparent ones.
 ///
-/// Exact where all are uniform over a region; where two edges meet in one region it takes them to be independent. Without any, everything is lit.
+/// Exact where all are uniform over a region; where two edges meet in one region it takes them to be independent. Without any set, everything is lit.
 pub struct Through<'a>(pub Vec<Box<dyn Shadow + 'a>>);
 
 impl Shadow for Through<'_> {

@@ -1,10 +1,10 @@
-// Asks for what the page shows: a small picture first, then the whole one, then truth, and nothing that is out of date.
+// Requests what the page shows: a small picture first, then the whole one, then truth, and nothing that is out of date.
 
 export class Gone extends Error {}
 export class Refused extends Error {}
 class Busy extends Error {}
 
-// A request of this page's own server. Its errors: `Refused` with the line that says why, `Gone` where nobody answers.
+// A request to this page's own server. Its errors: `Refused` with the line that explains why, `Gone` where the server does not answer.
 export async function ask(path, signal) {
   let reply;
   try {
@@ -20,19 +20,19 @@ export async function ask(path, signal) {
 
 const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
-// Asks for pictures of a state that changes. `shown` has what is called with what came.
+// Requests pictures of a state that changes. The functions of `shown` are called with what arrives.
 export class Asking {
   constructor(state, shown) {
     this.state = state;
     this.shown = shown;
-    // Each change has its number; what belongs to an older one is not asked for any more.
+    // Each change has its number; what belongs to an older one is no longer requested.
     this.generation = 0;
     this.moving = false;
     this.running = false;
     this.done = {};
   }
 
-  // Says that the state is another; `moving` while it is likely to change again at once.
+  // Called when the state has changed; `moving` while it is likely to change again at once.
   change(moving = false) {
     this.generation += 1;
     this.moving = moving;
@@ -42,14 +42,14 @@ export class Asking {
     this.run();
   }
 
-  // Says that nothing moves any more.
+  // Called when nothing moves any more.
   settle() {
     clearTimeout(this.rest);
     this.moving = false;
     this.run();
   }
 
-  // Says that only what lies beside the picture is another: nothing is drawn again.
+  // Called when only something beside the picture has changed: nothing is drawn again.
   beside() {
     this.done.lines = this.done.why = undefined;
     this.slow?.abort();

@@ -35,7 +35,7 @@ function turnTo(azimuth, elevation, moving) {
   changed(moving);
 }
 
-// Puts the state where the address has it, shows it in the controls, and asks for its picture.
+// Writes the state into the address, shows it in the controls, and requests its picture.
 function changed(moving = false) {
   keep();
   controls();
@@ -87,13 +87,13 @@ function tags() {
   by("right").textContent = picture.truth ? "rays" : "rays follow";
 }
 
-// The recipe's controls, made anew where it is another one.
+// The recipe's controls, made anew when the recipe changes.
 function showRecipe() {
   recipe = new Recipe(state.recipe ?? "auto");
   const preset = about.recipes.find(({ name }) => name === recipe.name) ?? about.recipes[0];
   const own = state.recipe === null && about.ownRecipes;
   by("recipe").value = own ? "" : preset.name;
-  by("about").replaceChildren(...worded(own ? "what each light's own tree names, or else auto" : preset.about));
+  by("about").replaceChildren(...worded(own ? "the recipe that each light's own tree names, or else auto" : preset.about));
   by("more").hidden = own;
   showFields(by("fields"), preset, recipe, () => {
     state.recipe = recipe.text();
@@ -101,7 +101,7 @@ function showRecipe() {
   });
 }
 
-// A picture of one light wants one to be chosen.
+// A picture of one light needs one to be chosen.
 function chooseLight() {
   const needed = state.show === "shadow" || state.isJudged;
   if (needed && state.light === null && about.lights.length > 1) state.light = turned().name;
@@ -118,8 +118,8 @@ const shown = {
     const now = performance.now();
     times.push(now);
     while (times.length && now - times[0] > 1000) times.shift();
-    const rate = asking.moving && times.length > 1 ? `, ${times.length} pictures a second` : "";
-    const judged = told.judged === undefined ? "" : `, ${told.judged} pixels are judged`;
+    const rate = asking.moving && times.length > 1 ? `, ${times.length} pictures per second` : "";
+    const judged = told.judged === undefined ? "" : `, ${told.judged} pixels judged`;
     by("caption").textContent = `${told.size[0]} × ${told.size[1]}${draft ? ", 1 sample" : ""} in ${told.ms} ms${rate}${judged}${note(draft)}`;
     faults(draft ? [] : told.faults ?? []);
   },
@@ -298,7 +298,7 @@ async function start() {
   fill(by("recipe"), [...own, ...about.recipes.map(({ name }) => [name, name])], "");
   const sizes = [...new Set([...SIZES, about.mapSize, Number(state.mapSize) || about.mapSize])].sort((a, b) => a - b);
   fill(by("map-size"), sizes.map((size) => [size, `${size} × ${size} texels`]), about.mapSize);
-  fill(by("samples"), [1, 4, 16, 64].map((count) => [count, count === 1 ? "1 a pixel" : `${count} a pixel`]), about.samples);
+  fill(by("samples"), [1, 4, 16, 64].map((count) => [count, count === 1 ? "1 per pixel" : `${count} per pixel`]), about.samples);
   by("page").hidden = false;
   by("more").open = innerWidth >= 860;
   picture = new Picture(by("canvas"), about.size, does);

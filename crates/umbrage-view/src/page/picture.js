@@ -1,10 +1,10 @@
-// The picture: truth wiped over it, the pixel that is explained, and what a pointer and keys do in it.
+// The picture: truth beside it under a divider, the pixel that is explained, and what a pointer and keys do in it.
 
-const THICK = 14; // How near the wipe's line a pointer takes hold of it, CSS pixels.
+const THICK = 14; // How near to the divider a pointer grabs it, CSS pixels.
 const CLICK = 4; // A pointer that moves less has clicked, CSS pixels.
 
 export class Picture {
-  // `does` has what pointers and keys ask for: `turn(right, down, moving)` in degrees, `explain([x, y])`, `wipe(share)`, `close()`.
+  // `does` has what pointers and keys do: `turn(right, down, moving)` in degrees, `explain([x, y])`, `wipe(share)`, `close()`.
   constructor(canvas, size, does) {
     Object.assign(this, { canvas, does, size, result: null, truth: null, wipe: null, pixel: null, cursor: null });
     [canvas.width, canvas.height] = size;
@@ -31,7 +31,7 @@ export class Picture {
     const at = this.wipe === null ? width : this.wipe * width;
     put(this.result, 0, width);
     if (this.truth) put(this.truth, at, width);
-    // As wide on the screen whatever the size of the picture.
+    // Equally wide on the screen whatever the size of the picture.
     const unit = width / Math.max(1, this.canvas.clientWidth);
     if (this.wipe !== null) {
       this.line(at, 0, at, height, 3 * unit, "#000");
@@ -57,7 +57,7 @@ export class Picture {
     this.pen.stroke();
   }
 
-  // A pointer's place: CSS pixels from the left, the share of the width, and the pixel.
+  // A pointer's place: CSS pixels from the left, the fraction of the width, and the pixel.
   place(event) {
     const box = this.canvas.getBoundingClientRect();
     const share = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];

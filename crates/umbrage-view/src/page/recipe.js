@@ -48,12 +48,12 @@ function control(field, value, id, changed) {
   return input;
 }
 
-// Fills an element with the controls of a recipe's fields. `changed` is called once a value of the recipe is another.
+// Fills an element with the controls of a recipe's fields. `changed` is called once a value of the recipe has changed.
 export function showFields(place, preset, recipe, changed) {
   place.replaceChildren();
   const shown = new Set();
   for (const field of preset.fields) {
-    // Two rows of one name are one field.
+    // Two rows with one name are one field.
     if (shown.has(field.name)) continue;
     shown.add(field.name);
     const id = `field-${field.name}`;

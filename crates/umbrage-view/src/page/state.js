@@ -38,7 +38,7 @@ export class State {
     return this.show === "picture" || this.show === "shadow";
   }
 
-  // What truth depends on: another recipe has the same.
+  // What truth depends on: it is the same for every recipe.
   get truthKey() {
     const kind = this.show === "picture" || this.show === "truth" ? "lit" : "dark";
     return JSON.stringify([kind, this.light, [...this.turns], this.samples]);

@@ -1,4 +1,4 @@
-//! A receiver asked of what knows facets: votes of samples, and the edge between those that disagree.
+//! The look-up of a receiver in a map of facets: votes of samples, and the edge between those that disagree.
 
 use super::parameters::DualPlane;
 use super::voters::Compared;
@@ -9,14 +9,14 @@ use glam::DVec2;
 use umbrage_depth::{DepthMap, FacetSource};
 use umbrage_plane::{Affine, Cells, View};
 
-/// A receiver asked of what knows facets.
+/// The look-up of a receiver in a map of facets.
 pub(super) struct Asked<'a, F: ?Sized> {
     pub map: &'a F,
     pub view: &'a View,
     /// What every sample is compared with.
     pub compared: Compared,
     texel: DVec2,
-    /// The middle of the region's parallelogram, its half-axes, texels, and what of it is the surface.
+    /// The middle of the region's parallelogram, its half-axes, texels, and the part of it that is the surface.
     middle: DVec2,
     axes: [DVec2; 2],
     cells: Cells,
@@ -25,10 +25,10 @@ pub(super) struct Asked<'a, F: ?Sized> {
     pub per_world: f64,
 }
 
-/// How often the cell between two places of different answers is halved to find the edge.
+/// How often the interval between two places of different results is halved to find the edge.
 const HALVINGS: u32 = 3;
 
-/// Beyond so many samples from the origin, and at NaN, no map has one.
+/// Beyond this many samples from the origin, and at NaN, no map has a sample.
 pub(super) const FAR: f64 = 1e9;
 
 impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
@@ -71,14 +71,14 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
         }
     }
 
-    /// The answer of a place that the view's rules settle.
+    /// The result for a place that the view's rules settle.
     #[inline(always)]
     pub fn ruled(&self, at: DVec2) -> Option<f32> {
         answer(self.view.rules().verdict(self.view.locate(at.as_vec2())))
     }
 
-    /// The share of the region's surface that is dark, by lines across it: on each, what lies between two places that answer alike is as they are, and between
-    /// two that do not the edge is looked for. `dark` is asked about places that the view's rules do not settle.
+    /// The fraction of the region's surface that is dark, by lines across it: on each, the part between two places that agree is as they are, and between two
+    /// that disagree the edge is searched for. `dark` is called for places that the view's rules do not settle.
     #[inline(always)]
     pub fn share(&self, inside: bool, mut dark: impl FnMut(DVec2) -> bool) -> f32 {
         let mut answer = |at: DVec2| match if inside { None } else { self.ruled(at) } {

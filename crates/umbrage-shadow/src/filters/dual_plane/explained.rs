@@ -1,4 +1,4 @@
-//! Why a receiver is lit or dark: every place of its region, what the samples around it say, and where the edge runs between them.
+//! Why a receiver is lit or dark: every place of its region, the votes of the samples around it, and where the edge runs between them.
 
 use super::asked::{Asked, FAR};
 use super::grid::Grid;
@@ -11,7 +11,7 @@ use umbrage_plane::TexelRect;
 /// The corners of a cell's sides: upper, lower, left, right.
 const SIDES: [(usize, usize); 4] = [(0, 1), (2, 3), (0, 2), (1, 3)];
 
-/// Tells a probe of each place that is asked about. Every one is looked at by itself, which gives what all together do.
+/// Reports each judged place to a probe. Every place is judged by itself, with the same result as all together.
 #[inline(never)]
 pub(super) fn explain<F: FacetSource + ?Sized>(asked: &Asked<'_, F>, probe: &mut impl Probe) {
     asked.share(true, |at| {

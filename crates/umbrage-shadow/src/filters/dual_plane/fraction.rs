@@ -1,4 +1,4 @@
-//! The fraction of a region that is in shadow, by the least that settles it.
+//! The fraction of a region that is in shadow, by the cheapest test that settles it.
 
 use super::asked::{Asked, FAR};
 use super::grid::Grid;
@@ -7,14 +7,14 @@ use glam::DVec2;
 use umbrage_depth::FacetSource;
 use umbrage_plane::TexelRect;
 
-/// Samples along each side of the region that are kept at hand; larger regions ask the map for each place.
+/// Samples along each side of the region that are held; larger regions read the map for each place.
 const AT_HAND: usize = 12;
 
-/// Regions of more texels along a side are not asked whether all of their samples agree.
+/// Regions of more texels along a side are not tested for whether all of their samples agree.
 const MOST_AGREED: f64 = 16.0;
 
 impl<F: FacetSource + ?Sized> Asked<'_, F> {
-    /// The fraction in shadow, and how many samples were looked at.
+    /// The fraction in shadow, and how many samples were read.
     #[inline(always)]
     pub fn fraction(&self) -> (f32, u32) {
         let (centre, axes) = self.compared.part;
@@ -49,7 +49,7 @@ impl<F: FacetSource + ?Sized> Asked<'_, F> {
         (self.one_by_one(inside), looked)
     }
 
-    /// The answer where all samples of a rectangle see one facet, that answers alike for each of them and for all places of the region.
+    /// The common vote where all samples of a rectangle see one facet, which judges each of them and all places of the region alike.
     #[inline(always)]
     fn of_one_plane(&self, rect: TexelRect, reach: DVec2) -> Option<bool> {
         let sample = self.map.one_facet(rect)?;
@@ -65,7 +65,7 @@ impl<F: FacetSource + ?Sized> Asked<'_, F> {
         (dark != lit).then_some(dark)
     }
 
-    /// The answer of all samples of a rectangle for all places of the region, where it is one; and how many were looked at.
+    /// The common vote of all samples of a rectangle for all places of the region, where they agree, and how many were read.
     #[inline(never)]
     fn agreed(&self, rect: TexelRect) -> (Option<bool>, u32) {
         let (mut samples, mut said, mut looked) = (Samples::NONE, Said::default(), 0);
@@ -82,7 +82,7 @@ impl<F: FacetSource + ?Sized> Asked<'_, F> {
         (said.agreed(), looked)
     }
 
-    /// A large region: the map is asked anew for each place.
+    /// A large region: the map is read anew for each place.
     #[inline(never)]
     fn one_by_one(&self, inside: bool) -> f32 {
         self.share(inside, |at| {

@@ -8,7 +8,7 @@ use glam::{DVec2, IVec2, USizeVec2, UVec2};
 use umbrage_depth::FacetSource;
 use umbrage_plane::TexelRect;
 
-/// Crossings, and shapes of cells, that are remembered: more than an edge through a region has.
+/// The number of crossings, and of shapes of cells, that are remembered: more than an edge through a region has.
 const REMEMBERED: usize = 16;
 
 /// The samples at up to `N` places of the finer grid, as many as lie under a region or at the corners of a cell.
@@ -17,13 +17,13 @@ pub(super) struct Grid<'a, 'b, F: ?Sized, const N: usize, const CHUNKS: usize> {
     rect: TexelRect,
     /// Places of a row.
     columns: usize,
-    /// What the samples say, each once, and which part of the rectangle each stands for.
+    /// The samples' votes, each once, and the part of the rectangle that each stands for.
     voters: ArrayVec<Voters, CHUNKS>,
     pub parts: ArrayVec<TexelRect, N>,
-    /// For each place, row by row, whose it is, and what of it holds for all places of the region.
+    /// For each place, row by row, the sample that it belongs to, and that sample's vote for all places of the region.
     of: [u8; N],
     says: [u8; N],
-    /// Crossings that were looked for before, by their place and whether they lead downward.
+    /// Crossings that were found before, by their place and whether they lead downward.
     crossed: ArrayVec<((usize, bool), f64), REMEMBERED>,
     /// How the edge runs through cells, by their first place and their corners' votes.
     shapes: ArrayVec<((usize, u8), Shape), REMEMBERED>,
@@ -44,7 +44,7 @@ impl Cut {
         let Self { corner, p, q } = *self;
         let x = if corner & 1 == 0 { within.x } else { 1.0 - within.x };
         let y = if corner & 2 == 0 { within.y } else { 1.0 - within.y };
-        // x/p + y/q < 1 is this side; a crossing at the corner itself leaves nothing of it.
+        // x/p + y/q < 1 is the corner's side; a crossing at the corner itself leaves nothing of that side.
         x * q + y * p >= p * q
     }
 }
@@ -93,8 +93,8 @@ impl<'a, 'b, F: FacetSource + ?Sized, const N: usize, const CHUNKS: usize> Grid<
         }
     }
 
-    /// Takes the samples of its rectangle, and returns their answer for all places of the region, where it is one. Whose each place is has to
-    /// be [noted](Self::place) before one of them is judged.
+    /// Takes the samples of its rectangle, and returns their common vote for all places of the region, where they agree. The sample of each
+    /// place must be [noted](Self::place) before any place is judged.
     #[inline(always)]
     pub fn fill(&mut self) -> Option<bool> {
         let mut samples = ArrayVec::<Samples, CHUNKS>::new_const();
@@ -118,7 +118,7 @@ impl<'a, 'b, F: FacetSource + ?Sized, const N: usize, const CHUNKS: usize> Grid<
         said.agreed()
     }
 
-    /// Notes for each place whose it is, and what that says.
+    /// Notes for each place the sample that it belongs to, and that sample's vote.
     #[inline(always)]
     fn place(&mut self) {
         let (rect, columns) = (self.rect, self.columns);
@@ -139,7 +139,7 @@ impl<'a, 'b, F: FacetSource + ?Sized, const N: usize, const CHUNKS: usize> Grid<
         }
     }
 
-    /// With its samples, and each place noted.
+    /// A grid with its samples, and with each place noted.
     #[inline(always)]
     pub fn filled(&mut self) -> &mut Self {
         self.fill();
@@ -168,7 +168,7 @@ impl<'a, 'b, F: FacetSource + ?Sized, const N: usize, const CHUNKS: usize> Grid<
     #[inline(always)]
     pub fn dark(&mut self, at: DVec2) -> bool {
         let place = at * f64::from(self.asked.map.fine()) - (self.rect.min.as_dvec2() + 0.5);
-        // Roundings of a place at the region's rim.
+        // A place at the region's rim may lie outside by rounding.
         let cell = place.as_uvec2().min((self.rect.max - self.rect.min - 2).as_uvec2());
         let first = self.corner(cell, 0);
         let corners = [first, first + 1, first + self.columns, first + self.columns + 1];
@@ -181,7 +181,7 @@ impl<'a, 'b, F: FacetSource + ?Sized, const N: usize, const CHUNKS: usize> Grid<
         self.edge((first, votes), cell).dark(place - cell.as_dvec2())
     }
 
-    /// What the samples at a cell's corners say of a place, a bit for each.
+    /// The votes of the samples at a cell's corners on a place, one bit for each.
     #[inline(never)]
     fn votes(&self, corners: [usize; 4], at: DVec2) -> u8 {
         let vote = |voter: usize| u8::from(self.voters[voter / LANES].dark(voter % LANES, at));
@@ -217,7 +217,7 @@ impl<'a, 'b, F: FacetSource + ?Sized, const N: usize, const CHUNKS: usize> Grid<
         }
     }
 
-    /// The line that cuts a corner of a cell off.
+    /// The line that cuts off a corner of a cell.
     fn cut(&mut self, cell: UVec2, corner: usize) -> Cut {
         let mut from_corner = |to: usize| {
             let place = self.crossed(cell, corner.min(to), corner.max(to));
@@ -240,15 +240,16 @@ impl<'a, 'b, F: FacetSource + ?Sized, const N: usize, const CHUNKS: usize> Grid<
         place
     }
 
-    /// Where a side of a cell is crossed, from 0 at `from`, its upper or left end, to 1: where the map saw the surface change, or where the
-    /// receiver's plane passes from behind one to before the other, or in the middle. The cell is counted from the grid's first.
+    /// Where a side of a cell is crossed, from 0 at `from`, its upper or left end, to 1: where the map's links say that the surface
+    /// changes, or where the receiver's plane passes from behind one surface to in front of the other, or in the middle. The cell is counted from the grid's
+    /// first.
     #[inline(never)]
     pub fn crossing(&self, cell: UVec2, from: usize, to: usize) -> Crossing {
         let begin = self.rect.min + cell.as_ivec2() + IVec2::new(from as i32 & 1, from as i32 >> 1);
         if let Some(place) = self.asked.map.link(begin, to - from == 2) {
             return Crossing::Link(place);
         }
-        // Whether the receiver is behind a plane or before it is not known where it lies on it.
+        // Where the receiver lies on a plane, rounding decides whether it is behind it or in front of it.
         let behind = |corner: usize| {
             let voter = usize::from(self.of[self.corner(cell, corner)]);
             let (there, passed) = self.voters[voter / LANES].there(voter % LANES);

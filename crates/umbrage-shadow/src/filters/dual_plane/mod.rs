@@ -48,7 +48,7 @@ impl Filter for DualPlane {
 }
 
 impl DualPlane {
-    /// Maps around a light, whose samples beyond a seam are brought over from the neighbour.
+    /// Maps around a light, whose samples beyond a seam are taken from the neighbour.
     #[inline(never)]
     fn over_several<'a, S: Simd, M: DepthMap, P: Probe>(
         &self,

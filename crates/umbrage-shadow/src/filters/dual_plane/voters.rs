@@ -1,4 +1,4 @@
-//! What samples say of a receiver, several at a time.
+//! The votes of samples on a receiver, several at a time.
 
 #![expect(clippy::needless_range_loop, reason = "one index names a lane in several arrays")]
 
@@ -6,49 +6,49 @@ use glam::DVec2;
 use umbrage_depth::FacetSample;
 use umbrage_plane::Affine;
 
-/// Samples that are worked on together.
+/// The number of samples that are processed together.
 pub(super) const LANES: usize = 4;
 
-/// What a sample says that does not say the same of all places of the region.
+/// The vote of a sample that does not judge all places of the region alike.
 pub(super) const OPEN: u8 = 1 << 7;
 
-/// A number of each.
+/// One number of each sample.
 type Lanes = [f64; LANES];
 
-/// What of a receiver every sample is compared with.
+/// The properties of a receiver with which every sample is compared.
 pub(super) struct Compared {
     /// Its tangent plane, and how fast that plane's key changes, over both axes together.
     pub plane: Affine,
     pub steep: f64,
     /// The middle and the half-axes, texels, of the part of the region that holds the surface.
     pub part: (DVec2, [DVec2; 2]),
-    /// What a sample of one texel's width must be passed by for its width, as a key, and for each unit of slope.
+    /// The margin by which a sample of one texel's width must be passed: for its width, as a key, and for each unit of slope.
     pub width: f64,
     pub slope: f64,
     /// The least width of a sample, texels.
     pub least: f64,
-    /// Roundings of what is compared.
+    /// The rounding of what is compared.
     pub rounding: f64,
 }
 
-/// One to [`LANES`] samples, number by number: arrays, of which a compiler makes vector instructions.
+/// One to [`LANES`] samples, number by number: arrays, which a compiler turns into vector instructions.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Samples {
     plane: [Lanes; 3],
     at: [Lanes; 2],
     side: Lanes,
-    /// How many they are.
+    /// The number of samples.
     pub count: usize,
 }
 
 impl Samples {
-    /// None yet.
+    /// No samples yet.
     pub const NONE: Self = Self { plane: [[0.0; LANES]; 3], at: [[0.0; LANES]; 2], side: [0.0; LANES], count: 0 };
 
-    /// The same and one more.
+    /// Adds one more sample.
     ///
     /// # Panics
-    /// When there are [`LANES`] already.
+    /// When there are already [`LANES`] samples.
     #[inline(always)]
     pub fn push(&mut self, sample: &FacetSample) {
         let lane = self.count;
@@ -58,7 +58,7 @@ impl Samples {
         self.count = lane + 1;
     }
 
-    /// One alone.
+    /// One sample alone.
     #[inline(always)]
     pub fn one(sample: &FacetSample) -> Self {
         let mut samples = Self::NONE;
@@ -67,14 +67,14 @@ impl Samples {
     }
 }
 
-/// What samples say before a place is named.
+/// The votes of samples before a place is given.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Voters {
-    /// How far the receiver's plane lies behind each sample's, as a key over texels, less what it must pass by: [`Affine`], number by number.
+    /// How far the receiver's plane lies behind each sample's, as a key over texels, minus the margin: [`Affine`], number by number.
     behind: [Lanes; 3],
     /// The same where the sample was taken.
     there: Lanes,
-    /// What it must pass by.
+    /// The margin by which the receiver's plane must lie behind.
     passed: Lanes,
     /// A bit for each that calls all places of the region dark, or all of them lit. Neither is set where it calls some dark and some lit, and where
     /// a number is NaN; both never are.
@@ -95,9 +95,12 @@ fn bits(lanes: [bool; LANES]) -> u8 {
 }
 
 impl Voters {
-    /// Each of some samples as if it were alone. Nothing, a plane infinitely far, calls everything lit.
+    /// Each of some samples as if it were alone. An empty sample, a plane infinitely far away, calls everything lit.
     #[inline(always)]
-    #[expect(clippy::needless_bitwise_bool, reason = "a lane that skipped a comparison would be no vector's")]
+    #[expect(
+        clippy::needless_bitwise_bool,
+        reason = "a lane that skipped a comparison would keep the loop from being vectorised"
+    )]
     pub fn of(compared: &Compared, samples: &Samples) -> Self {
         let ([mut c, mut dx, mut dy], [x, y], side) = (samples.plane, samples.at, samples.side);
         let (mut there, mut passed) = ([0.0; LANES], [0.0; LANES]);
@@ -124,7 +127,7 @@ impl Voters {
         Self { behind: [c, dx, dy], there, passed, dark: bits(dark) & all, lit: bits(lit) & all, all }
     }
 
-    /// What a sample says of all places of the region: 0 lit, 1 dark, or [`OPEN`].
+    /// A sample's vote for all places of the region: 0 lit, 1 dark, or [`OPEN`].
     #[inline(always)]
     pub fn says(&self, lane: usize) -> u8 {
         let (dark, lit) = (self.dark >> lane & 1, self.lit >> lane & 1);
@@ -140,21 +143,21 @@ impl Voters {
         }
     }
 
-    /// How far the receiver's plane lies behind a sample's, as a key over texels, less what it must pass by.
+    /// How far the receiver's plane lies behind a sample's, as a key over texels, minus the margin.
     #[inline(always)]
     pub fn behind(&self, lane: usize) -> Affine {
         let [c, dx, dy] = &self.behind;
         Affine { c: c[lane], dx: dx[lane], dy: dy[lane] }
     }
 
-    /// The same where the sample was taken, and what it must pass by; −∞ where there is nothing.
+    /// The same where the sample was taken, and the margin; −∞ where there is no surface.
     #[inline(always)]
     pub fn there(&self, lane: usize) -> (f64, f64) {
         (self.there[lane], self.passed[lane])
     }
 }
 
-/// What samples say of a whole region.
+/// The votes of samples on a whole region.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Said {
     lit: u8,
@@ -164,7 +167,7 @@ pub(super) struct Said {
 }
 
 impl Said {
-    /// Takes what some of them say.
+    /// Adds the votes of some samples.
     #[inline(always)]
     pub fn add(&mut self, voters: &Voters) {
         let (dark, lit) = (voters.dark, voters.lit);
@@ -179,7 +182,7 @@ impl Said {
         self.mixed == 0 && (self.dark == 0 || self.lit == 0)
     }
 
-    /// The answer of all, where there is one.
+    /// The common vote of all, where they agree.
     #[inline(always)]
     pub fn agreed(self) -> Option<bool> {
         (self.can_agree() && self.dark | self.lit != 0).then_some(self.dark != 0)

@@ -44,7 +44,7 @@ pub fn before(moments: [f64; 4], place: f64) -> f64 {
     let partners = quadratics.partners(place);
     let of = |y: f64| if y < place { quadratics.share(y) } else { 0.0 };
     let share = of(partners[0]) + of(partners[1]);
-    // By roundings, two shares may be more than all.
+    // By rounding, two fractions may add up to more than 1.
     if share > 0.0 { share.min(1.0) } else { 0.0 }
 }
 

@@ -1,8 +1,9 @@
 //! Shadows from moments of depths: variance, exponential and moment shadow maps.
 //!
-//! A [`MomentMap`](umbrage_depth::MomentMap) keeps means of functions of its depths over regions of all sizes. How much of a region lies before a receiver does not follow from
-//! them, but how much at least, or at most: each method is an inequality, and these are its functions. [`FromMoments`] chooses by what
-//! the map keeps.
+//! A [`MomentMap`](umbrage_depth::MomentMap) keeps means of functions of its depths over regions of all sizes. They do not determine how much of a region lies
+//! in front of a
+//! receiver, but they bound it from below or above: each method is an inequality, and these are the functions of it. [`FromMoments`] chooses among them by
+//! what the map holds.
 //!
 //! | kept | inequality | method |
 //! |---|---|---|
@@ -22,36 +23,39 @@ use glam::Vec2;
 use umbrage_depth::{DepthMap, MomentSource, Moments};
 use umbrage_plane::{Bias, Place};
 
-/// Shares below this are roundings of 32-bit moments.
+/// Fractions below this are roundings of 32-bit moments.
 const ROUNDING: f64 = 1e-6;
 
-/// The shadow that moments of the map's depths leave no doubt of, by the inequality that goes with them (see [`moments`](crate::moments)).
+/// The shadow that is certain from moments of the map's depths, by the inequality that goes with them (see [`moments`](crate::moments)).
 ///
 /// The moments are those at the receiver's place, interpolated linearly between texels and levels. The level is
 /// log₂ of the larger side of the receiver's footprint in texels, capped as every filter caps it, and 0 for footprints below a texel: its
-/// texels are as wide as the footprint. Light that the inequality leaves possible but that is not there, where a third surface lies behind two
-/// others, is called light bleeding; `bleeding` cuts it off.
+/// texels are as wide as the footprint. Where a third surface lies behind two others, the inequality admits light that is not there, which is
+/// called light bleeding; `bleeding` cuts it off.
 ///
 /// Receivers up to the map's nearest depth are lit. So are those whose depth is NaN. Shadows below 10⁻⁶ are none. A place outside the map
-/// or the cone answers by the view's rules.
+/// or the cone is settled by the view's rules.
 ///
-/// Over a map without moments the depths of four texels are known themselves: the answer is the fraction of the four around the receiver's
-/// place that is nearer, weighted as in an interpolation, and over deep maps what these stop. Nothing is cut off. Around a light, places that only a neighbour's
-/// map sees are answered by its single texel, and moments do not reach across seams.
+/// Over a map without moments the depths of four texels are known themselves: the result is the fraction of the four around the receiver's
+/// place that is nearer, weighted as in an interpolation, and over deep maps the fraction of light that these stop. Nothing is cut off. Around a light, places
+/// that only a neighbour's
+/// map sees are settled by its single texel, and moments do not reach across seams.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FromMoments {
     /// Moves the receiver toward the light. The exact fraction of a tilted plane before its own middle is a half, and the sharper the
-    /// inequality the closer it comes to that: four moments want two steps or more.
+    /// inequality the closer it comes to that: four moments need two steps or more.
     pub bias: Bias,
     /// The part of the fraction that may be lit which counts as none, the rest being stretched to 0..=1 (Lauritzen 2007, GPU Gems 3, ch. 8,
-    /// on light-bleeding reduction). 0 cuts nothing off; 1 and more leave only what is wholly lit, NaN and negative numbers are 0. Penumbrae become narrower by it.
+    /// on light-bleeding reduction). 0 cuts nothing off; 1 and more leave only what is wholly lit, NaN and negative numbers are 0. Penumbrae become narrower
+    /// by it.
     pub bleeding: f32,
     /// Variance that counts at least, in squares of the scaled depth: what roundings are, and what a tilted plane has within a texel (Donnelly &
     /// Lauritzen 2006). Exponentials have it times the square of their slope at the mean. Not used by other kinds; NaN and negative numbers are 0.
     pub least_variance: f32,
     /// The fraction α by which four moments are mixed with those of a distribution that is half at 0 and half at 1, so that roundings do not
-    /// make them impossible (Peters & Klein 2015); the known fraction of the admixture is taken out of the answer again. Not used by other kinds; taken as within 0..=0.5, and NaN as 0.
+    /// make them impossible (Peters & Klein 2015); the known fraction of the admixture is removed from the result. Not used by other kinds; taken as within
+    /// 0..=0.5, and NaN as 0.
     pub moment_bias: f32,
 }
 
