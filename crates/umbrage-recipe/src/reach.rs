@@ -58,7 +58,7 @@ impl Recipe {
             DepthName::SlopeScaled => (f64::from(scaled.slope) * texel * slope).min(f64::from(scaled.most)),
             DepthName::NormalOffset => {
                 let facing = 1.0 / slope.hypot(1.0);
-                f64::from(offset.texels) * texel * offset.growth.of(facing) / facing
+                f64::from(offset.texels) * texel * offset.growth.of(slope * facing, facing) / facing
             }
             DepthName::Engine(bias) => bias.lift(light, zeta, slope),
             DepthName::Constant | DepthName::Plane | DepthName::Cone => 0.0,
@@ -101,7 +101,7 @@ impl Recipe {
     /// How far a receiver is looked up from its own place, texels.
     fn shift(&self, view: &View, receiver: &Receiver) -> Vec2 {
         let along = match self.values.depth {
-            DepthName::NormalOffset => self.values.offset.world(receiver),
+            DepthName::NormalOffset => self.values.offset.world(view, receiver),
             DepthName::Engine(bias) => bias.of(view, receiver).normal,
             DepthName::Constant | DepthName::Plane | DepthName::Cone | DepthName::SlopeScaled => 0.0,
         };

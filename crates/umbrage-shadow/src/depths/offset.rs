@@ -1,6 +1,6 @@
 use super::Compared;
 use fearless_simd::{Simd, f32x16, prelude::*};
-use glam::Vec2;
+use glam::{DVec3, Vec2};
 use umbrage_plane::{Bias, DepthRange, Footprint, Receiver, TexelRect, View};
 use umbrage_sample::Taps;
 
@@ -18,14 +18,14 @@ pub enum OffsetGrowth {
 }
 
 impl OffsetGrowth {
-    /// The factor for a cosine between normal and light, from 0 to 1. Surfaces that face away are treated as if seen from behind.
+    /// The factor for the angle between normal and light, by its sine, from 0 to 1, and its cosine. Surfaces that face away are treated as if seen
+    /// from behind. Both are given because near 0 the sine cannot be found from the cosine.
     #[inline(always)]
-    pub fn of(self, facing: f64) -> f64 {
-        let cosine = facing.abs().min(1.0);
+    pub fn of(self, sine: f64, cosine: f64) -> f64 {
         match self {
             Self::Even => 1.0,
-            Self::Sine => (1.0 - cosine * cosine).sqrt(),
-            Self::Versine => 1.0 - cosine,
+            Self::Sine => sine.min(1.0),
+            Self::Versine => 1.0 - cosine.abs().min(1.0),
         }
     }
 }
@@ -61,14 +61,16 @@ umbrage_plane::builders!([] NormalOffset { with_texels texels: f32, with_growth 
 impl NormalOffset {
     /// How far a receiver is moved along its normal, world units.
     #[inline(always)]
-    pub fn world(&self, receiver: &Receiver) -> f64 {
-        f64::from(self.texels * receiver.texel_world.max_element()) * self.growth.of(f64::from(receiver.facing))
+    pub fn world(&self, view: &View, receiver: &Receiver) -> f64 {
+        let toward = if view.is_perspective() { -receiver.eye.normalize_or_zero() } else { DVec3::Z };
+        let factor = self.growth.of(receiver.normal.cross(toward).length(), f64::from(receiver.facing));
+        f64::from(self.texels * receiver.texel_world.max_element()) * factor
     }
 
     /// For one receiver.
     #[inline(always)]
     pub(super) fn ready(&self, view: &View, receiver: &Receiver) -> Moved {
-        Moved::by(view, receiver, self.world(receiver), f64::from(receiver.in_world(view, self.bias)))
+        Moved::by(view, receiver, self.world(view, receiver), f64::from(receiver.in_world(view, self.bias)))
     }
 }
 
