@@ -1,4 +1,4 @@
-//! A lamp that shines all round: six maps, one for each face of a cube, asked as one light.
+//! A lamp that shines all round: six maps, one for each face of a cube, looked up as one light.
 
 use glam::{DVec3, Vec3};
 use umbrage_bake::bake;

@@ -1,4 +1,4 @@
-//! One's own triangles to a map, and one's own ray hits to the same depths.
+//! A map from your own triangles, and the same depths from your own ray hits.
 
 use glam::{DVec3, IVec2, UVec2, Vec3};
 use umbrage_bake::bake;
@@ -20,8 +20,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let baked = bake(&light, triangles, &First, Cull::None);
     println!("{} triangles, {} texels covered, {} bytes", baked.stats.kept(), baked.fragments, baked.map.bytes());
 
-    // A map made by one's own ray caster holds the same depths: `View::ray` gives each texel's ray, and a depth rule makes of its
-    // hits what the rasteriser would have stored.
+    // A map made by your own ray caster holds the same depths: `View::ray` gives each texel's ray, and a depth rule turns its
+    // hits into what the rasteriser would have stored.
     let texel = IVec2::new(70, 60);
     let (origin, direction) = light.ray(light.sampling().position(texel));
     let hits: Vec<Hit> = triangles.iter().filter_map(|triangle| hit(&light, triangle, origin, direction)).collect();

@@ -1,4 +1,4 @@
-//! Percentage-closer filtering for a spot light, over depths that a renderer has made itself.
+//! Percentage-closer filtering for a spot light, over depths that your renderer made.
 //!
 //! Reeves, Salesin & Cook 1987: compare first, filter afterwards, and edges are smooth.
 
@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     assert_eq!((dark[0], dark[15]), (1.0, 0.0));
     let between = dark.iter().filter(|dark| (0.05..0.95).contains(*dark)).count();
     assert!(between >= 3, "the edge is soft: {between} squares are in half shadow");
-    // Outside its cone a spot light is dark: the view's rules say so, not the map.
+    // Outside its cone a spot light is dark by the view's rules, not by the map.
     let outside = shadow.fraction(&SurfacePoint::at(Vec3::new(9.0, 0.0, 0.0), Vec3::Y), Key::new(0, 0, 0));
     assert_eq!(outside, 1.0);
     Ok(())

@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let bounds = [DVec3::new(-8.0, -1.0, -8.0), DVec3::new(8.0, 3.0, 8.0)];
     let sun = View::directional(DVec3::new(1.0, 1.0, 0.0), bounds, UVec2::splat(256))?;
 
-    // Back faces are second surfaces where solids do not reach into each other: draw without the fronts.
+    // Back faces are second surfaces where solids do not overlap: cull the front faces.
     let backs = bake(&sun, scene.iter().copied(), &BackFace, Cull::Front).map;
     let second = presets::wang_molnar94().over(backs)?;
     let middles = bake(&sun, scene.iter().copied(), &Midpoint::default(), Cull::None).map;

@@ -111,7 +111,7 @@ fn chunk(map: &Raw, place: Vec<i32>, texels: TexelRect) -> Chunk {
     Chunk { place, packed: texels.flat_map(|texel| map.depth(texel).to_le_bytes()).collect(), ..Chunk::default() }
 }
 
-/// The file of a map with tiles of so many texels a side, not packed, and which lie in the file in any order.
+/// The file of a map with tiles of this many texels per side, not compressed, which lie in the file in any order.
 ///
 /// # Panics
 /// When the map cannot be written, or is not seen in every texel of its border.

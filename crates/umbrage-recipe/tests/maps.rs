@@ -88,7 +88,7 @@ fn a_light_has_as_many_points_as_its_penumbra_is_wide() {
 #[test]
 fn a_fitted_window_needs_to_know_what_will_be_asked() {
     let refused = light("woo92,window=fitted", &[lamp()], &LightUse::default()).unwrap_err();
-    assert_eq!(refused, "window = \"fitted\": expected given, where it is not known which points will be asked about");
+    assert_eq!(refused, "window = \"fitted\": expected given, where it is not known which points will be looked up");
     let points = [(2.0, -1.0), (4.0, -1.0), (4.0, 1.0), (2.0, 1.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
     let with = LightUse { receivers: Some(&points), ..LightUse::default() };
     for text in ["auto,window=fitted", "woo92,window=fitted", "auto,window=fitted,light=0.1,maps=3"] {
@@ -133,7 +133,7 @@ fn casters_that_let_light_pass_are_kept_in_a_map_of_their_own() {
     // Two faces of the board, one after the other.
     assert!(passes[0].abs_diff_eq(Vec3::new(0.25, 0.0625, 0.0), 0.02), "{}", passes[0]);
     assert_eq!((passes[1], dark[1]), (Vec3::ONE, 0.0));
-    // Every triangle is counted once, and masks are asked of the triangles that they know.
+    // Every triangle is counted once, and masks are evaluated for the triangles that they belong to.
     assert_eq!((light.stats.given, light.stats.zero_area), (8, 0));
     let floor = |at: &MaskPlace| {
         assert!((4..8).contains(&at.triangle) && at.object == 1, "{at:?}");

@@ -58,7 +58,7 @@ impl Gate {
         Ok(())
     }
 
-    /// What is asked for below the token; `None` where that is another one.
+    /// The part of the path below the token; `None` for a wrong token.
     pub fn inside<'a>(&self, path: &'a str) -> Option<&'a str> {
         let (token, inside) = path.strip_prefix('/')?.split_once('/')?;
         // All bytes are compared, so that the time does not reveal how many are right.

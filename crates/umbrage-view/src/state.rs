@@ -213,7 +213,7 @@ pub enum Of {
     Truth,
 }
 
-/// A picture that is asked for.
+/// A requested picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ask {
     /// What it shows.

@@ -229,7 +229,7 @@ fn at_another_power_of_two_every_preset_gives_the_same_bits() {
 #[test]
 fn at_another_scale_every_preset_keeps_its_shadows() {
     // Positions and depths are rounded anew at each of these scales: of a few receivers that are as near as that, some fall
-    // otherwise. Deep maps, which are no preset's, hold 16 samples a texel and so 16 times as many such places.
+    // otherwise. Deep maps, which are no preset's, hold 16 samples per texel and so 16 times as many such places.
     let mut differ = Vec::new();
     for scene in [small(gallery::sphere_plane(), 400, 256), small(gallery::table(), 400, 512)] {
         for scale in [1e4, 1e-4] {

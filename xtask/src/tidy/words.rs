@@ -1,26 +1,33 @@
 //! Words that a native reader stumbles on, in comments and messages.
 
 /// Where they have been mended; whatever is mended elsewhere is added here.
-const MENDED: [&str; 13] = [
+const MENDED: [&str; 19] = [
     "crates/umbrage-bake/src/",
+    "crates/umbrage-cli/",
     "crates/umbrage-depth/",
     "crates/umbrage-engines/",
+    "crates/umbrage-figures/src/",
     "crates/umbrage-gltf/src/",
     "crates/umbrage-io/src/",
     "crates/umbrage-oracle/src/",
     "crates/umbrage-plane/",
     "crates/umbrage-raster/src/",
+    "crates/umbrage-recipe/",
     "crates/umbrage-render/src/",
     "crates/umbrage-report/src/",
     "crates/umbrage-sample/src/",
     "crates/umbrage-scene/src/",
+    "crates/umbrage-shadow/",
+    "crates/umbrage-view/",
+    "examples/",
     "xtask/",
 ];
-/// Where others still change the text.
-const NOT_YET: [&str; 1] = ["crates/umbrage-bake/src/facets/"];
+/// Parts of the names of measures, which `fixtures/figures.csv` holds as keys.
+const NAMES: [&str; 3] =
+    ["16 exact rays a pixel: error", "false shadow over the share of the disc", "the bias that D-9 asks for"];
 
 /// What is written, and what is meant. Each begins and ends at the borders of words.
-const WORDS: [(&str, &str); 39] = [
+const WORDS: [(&str, &str); 43] = [
     ("depth a texel", "per texel"),
     ("depths a texel", "per texel"),
     ("bytes a texel", "per texel"),
@@ -60,17 +67,24 @@ const WORDS: [(&str, &str); 39] = [
     ("be asked", "be read, tested or evaluated"),
     ("asks for", "needs"),
     ("tells of", "reports"),
+    ("less truth", "minus truth"),
+    ("Less truth", "Minus truth"),
+    ("rms error, share", "rms error"),
+    ("light with a size", "area light"),
 ];
 
 /// Findings of one source file.
 pub fn words(file: &str, text: &str) -> Vec<String> {
     let mut findings = Vec::new();
-    if !MENDED.iter().any(|folder| file.starts_with(folder)) || NOT_YET.iter().any(|folder| file.starts_with(folder)) {
+    if !MENDED.iter().any(|folder| file.starts_with(folder)) {
         return findings;
     }
     for (index, line) in text.lines().enumerate() {
         // In code the same letters would be names.
         let said = line.find("//").into_iter().chain(line.find('"')).min().map_or("", |at| &line[at..]);
+        if NAMES.iter().any(|name| said.contains(name)) {
+            continue;
+        }
         for (word, meant) in WORDS.into_iter().filter(|(word, _)| stands(said, word)) {
             findings.push(format!("{file}:{}: {word:?} should be {meant:?}", index + 1));
         }
@@ -101,8 +115,8 @@ mod tests {
         for line in ["depth a texel", "/// One depth per texel.", "/// In depth a texels' mean"] {
             assert!(words(file, line).is_empty(), "{line}");
         }
-        for other in ["crates/umbrage-bake/src/facets/a.rs", "crates/umbrage-new/src/a.rs"] {
-            assert!(words(other, "/// One depth a texel.").is_empty());
-        }
+        assert!(words("crates/umbrage-new/src/a.rs", "/// One depth a texel.").is_empty());
+        let measure = r#"Measure::info("16 exact rays a pixel: error, mean of all scenes", sixteen, "rms")"#;
+        assert!(words(file, measure).is_empty());
     }
 }

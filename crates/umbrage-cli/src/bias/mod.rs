@@ -77,7 +77,7 @@ pub fn run(cli: &Cli, args: &BiasArgs, shell: &mut Shell<'_>) -> anyhow::Result<
 }
 
 fn filter(radius: f64) -> String {
-    if radius == 0.0 { "one texel".into() } else { format!("{} texels a side", 2.0 * radius) }
+    if radius == 0.0 { "one texel".into() } else { format!("{} texels per side", 2.0 * radius) }
 }
 
 /// What the camera sees of a light by rays, at the centre of each pixel, and the pixels of a row.

@@ -45,7 +45,7 @@ impl Owners {
         Self { facets, names: scene.objects.iter().map(|object| object.name.clone()).collect() }
     }
 
-    /// The facet whose depth a texel stores, or whose depth is nearest to that; `None` where nothing is seen.
+    /// The facet whose depth is stored in a texel, or whose depth is nearest to that; `None` where nothing is seen.
     pub fn at(&self, texel: IVec2, stored: f32) -> Option<Owner> {
         let off = |owner: &&Owner| (owner.depth - stored).abs();
         self.facets.get(&texel)?.iter().min_by(|a, b| off(a).total_cmp(&off(b)).then(a.facet.cmp(&b.facet))).copied()

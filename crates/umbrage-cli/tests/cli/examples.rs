@@ -38,7 +38,7 @@ fn lines(text: &str) -> Vec<&str> {
 #[test]
 fn every_example_of_help_runs() {
     let folder = folder("examples-help");
-    // Maps are baked before they are asked about.
+    // Maps are baked before they are looked up.
     let commands =
         ["render", "shadow", "compare", "gather", "jobs", "bake", "export", "info", "lookup", "recipes", "scenes"];
     for command in commands {

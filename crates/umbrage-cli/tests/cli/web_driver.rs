@@ -48,7 +48,7 @@ impl Browser {
             "{method} {path} HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\nContent-Length: {length}\r\n\r\n"
         );
         stream.write_all((head + &body).as_bytes()).expect("a request");
-        // The driver keeps the connection, whatever it is asked for.
+        // The driver keeps the connection, whatever the request.
         let mut reply = BufReader::new(stream);
         let (mut line, mut length) = (String::new(), 0);
         while reply.read_line(&mut line).is_ok_and(|read| read > 2) {
@@ -99,7 +99,7 @@ impl Browser {
         }
     }
 
-    /// Waits until the page asks for nothing any more.
+    /// Waits until the page sends no more requests.
     pub fn rest(&self) {
         // A light that moves comes to rest only a moment after its last move.
         std::thread::sleep(Duration::from_millis(350));

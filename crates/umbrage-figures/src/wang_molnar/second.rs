@@ -320,7 +320,7 @@ fn decision(cx: &Context) -> anyhow::Result<Made> {
     })
 }
 
-/// The share of a mask's pixels whose depth is within their surface's own depth step of their texel's.
+/// The fraction of a mask's pixels whose depth is within their surface's own depth step of their texel's.
 fn close(picture: &Picture, mask: &[bool], map: &Arc<Tiled>) -> f64 {
     let view = map.view();
     let (mut close, mut all) = (0u32, 0u32);

@@ -64,7 +64,7 @@ fn ext_2_moments_share_the_light_between_them() {
     let map = expose_deep(&light().view, &moments, &lossless(1));
     let light_behind = |world: f32| map.transmittance(IVec2::new(((world + 16.0) * 2.0) as i32, 9), 1e9).x;
     assert_eq!([-1.0, 1.0, 5.0, 9.0, 13.0].map(light_behind), [1.0, 0.75, 0.5, 0.25, 0.0]);
-    // A single depth a texel sees each moment in its own share of the texels.
+    // With a single depth per texel, each moment is seen in its own fraction of the texels.
     let view = light().view;
     let first = |scene: &Scene| bake(&view, Soup::casters(scene, &view).triangles(), &First, Cull::None).map;
     let drawn = expose(&view, &moments, 3, first);

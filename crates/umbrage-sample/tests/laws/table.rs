@@ -1,4 +1,4 @@
-//! What a table of numbers may change of the jittered pattern: which taps a region has, not how they are spread over many regions.
+//! What a table of numbers may change of the jittered pattern: which taps the region has, not how they are spread over many regions.
 
 use glam::Vec2;
 use umbrage_plane::Footprint;

@@ -21,14 +21,14 @@ impl Filter for Pcss {
         let (mut sum, mut weight) = (0.0, 0.0);
         let search = query.region_around(glam::Vec2::splat(self.light));
         query.each(&search, &self.taps, &self.depth, |seen| {
-            // Places outside the map or the cone hold no occluder; `share` gives them their answer below.
+            // Places outside the map or the cone hold no occluder; `share` settles them below.
             let Met::Surfaces(surfaces) = &seen.met else { return };
             for (depth, stopped) in surfaces.iter().filter(|(depth, _)| *depth < seen.compared) {
                 sum += depth * stopped;
                 weight += stopped;
             }
         });
-        // Parallel light comes from nowhere: what it has no distance for is compared with the map's width.
+        // Parallel light has no distance: the gap to the occluders is compared with the map's width.
         let mean = sum / weight;
         let from = match query.view().projection() {
             Projection::Perspective { .. } => mean,

@@ -65,7 +65,7 @@ fn v49_r87_17_faces_of_directions() {
 
 #[test]
 fn t_16_filters_cross_cube_seams_and_corners_without_a_step() {
-    // Every texel stores its distance to one sphere; the same region is asked all along a great circle over seams and corners.
+    // Every texel stores its distance to one sphere; the same region is looked up all along a great circle over seams and corners.
     for kind in [Kind::Radial, Kind::Axial] {
         let around = Around::new(exact(EveryTexel), cube(128, kind, cap)).unwrap();
         for step in 0..720 {

@@ -155,7 +155,7 @@ fn no_shadow_is_darker_than_the_region_that_it_stands_for() {
             let texels: Vec<f32> = texels.collect();
             let depths = (0..24).map(|step| 9.5 + step as f32 * 0.5).chain(texels.iter().copied());
             for depth in depths.filter(|depth| depth.is_finite()) {
-                // Four texels wide, at the centre of four by four texels: these alone are asked about.
+                // Four texels wide, at the centre of four by four texels: these alone are looked up.
                 let at = receiver(raw.view(), corner.as_vec2() + 2.0, 2.0, depth);
                 let exact = texels.iter().filter(|stored| depth > **stored).count() as f32 / 16.0;
                 let found = maps.each_ref().map(|map| ask(bare(), map, &at));

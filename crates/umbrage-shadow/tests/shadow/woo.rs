@@ -94,7 +94,7 @@ fn w92_3_w92_5_the_preset_has_no_bias_and_draws_none() {
     let region = receiver(&view, Vec2::splat(30.3), Vec2::splat(3.0));
     let answer = |depth| ask(&presets::woo92().filter, &stored, &Receiver { depth, ..region }, KEY, &mut ());
     assert_eq!((answer(10.0), answer(10f32.next_up())), (0.0, 1.0));
-    // Any bias can be asked for all the same.
+    // Any bias can be set nevertheless.
     let biased = presets::woo92().filter.with_depth(Biased::constant(Bias::World(0.5)));
     let answer = |depth| ask(&biased, &stored, &Receiver { depth, ..region }, KEY, &mut ());
     assert_eq!((answer(10.5), answer(10.5f32.next_up())), (0.0, 1.0));
@@ -129,7 +129,7 @@ fn w92_10_t_3_the_archived_rule_is_right_for_the_light_s_box_and_wrong_for_the_f
         (archived(true, &patch, whole, background, 10.0), archived(true, &patch, finite, background, 10.0)),
         (0.0, 1.0)
     );
-    // Nothing is asked about what lies behind the light: inside the box it is compared, and so lit; outside it is dark.
+    // Places behind the light are not treated separately: inside the box it is compared, and so lit; outside it is dark.
     assert_eq!(
         (archived(true, &patch, whole, background, -1.0), archived(true, &patch, finite, background, -1.0)),
         (0.0, 1.0)

@@ -186,7 +186,7 @@ fn e_b1_e_b9_the_printed_whole_shadows_a_lit_plane_and_a_near_occluder_is_lost()
     assert_eq!(soft_shadow(&listing, &map(&view, |_| f32::INFINITY), at, 1.0, 9.0), 0.0);
 }
 
-/// The share of a disc of radius 1 beyond the distance `x` from its centre.
+/// The fraction of a disc of radius 1 beyond the distance `x` from its centre.
 fn segment(x: f64) -> f64 {
     let x = x.clamp(-1.0, 1.0);
     (x.acos() - x * (1.0 - x * x).sqrt()) / std::f64::consts::PI

@@ -40,7 +40,7 @@ fn wm94_7_t_11_virtual_samples_lie_where_the_map_was_sampled() {
         // The same numbers taken for samples at centres.
         let centred = Raw::new(view.with_sampling(Sampling::Centre), stored.depths().to_vec()).unwrap();
         elsewhere += u32::from(probed(&around, &centred, &receiver).0 > 0.0);
-        // The samples of the nearest four texels need not surround the point: then all of the sheet's may be nearer, and no plane is asked.
+        // The samples of the nearest four texels need not surround the point: then all of the sheet's may be nearer, and no plane is compared.
         let (fraction, counters) = probed(&nearest, &stored, &receiver);
         assert!(fraction == 0.0 || (fraction == 1.0 && counters.virtual_sampled == 0), "{i}: {fraction}");
         four += u32::from(fraction > 0.0);
@@ -95,7 +95,7 @@ fn deviations(view: &View, least: f64, most: f64) -> (f64, f64) {
         for texel in TexelRect::around(exact.footprint.centre - 0.5, Vec2::splat(0.5)).texels() {
             let at = view.sampling().position(texel);
             let direct = plane.key.at(at);
-            // Beyond the horizon there is no depth to deviate from; and nothing is compared far outside the range.
+            // Beyond the horizon no depth exists to deviate from; and nothing is compared far outside the range.
             if !(0.0..=1.0).contains(&direct) {
                 continue;
             }
@@ -132,7 +132,7 @@ fn always() -> Conditional {
 fn v41_wm94_10_edge_on_planes_fall_back_and_horizons_are_infinitely_far_d_5() {
     let view = lamp(64);
     let half_dark = map(&view, |texel| if texel.x < 32 { 5.0 } else { f32::INFINITY });
-    // x = 0 holds the light: plain comparison, whatever is asked for.
+    // x = 0 contains the light: plain comparison, whatever is set.
     let point = SurfacePoint::at(Vec3::new(0.0, 1.0, -3.0), Vec3::X);
     let edge_on = view.receiver(&point).unwrap();
     assert!(edge_on.facing.abs() < 1e-6);
