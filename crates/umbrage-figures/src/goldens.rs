@@ -165,7 +165,7 @@ pub fn numbers_differ(kept: &str, made: &str) -> Vec<String> {
         match kept.iter().find(|(other, _)| other == name) {
             None => findings.push(format!("does not hold {name}")),
             Some((_, old)) if !alike(old, value) => {
-                findings.push(format!("{name} is {old}, but the code makes {value}"))
+                findings.push(format!("{name} is {old}, but the code makes {value}"));
             }
             Some(_) => {}
         }
