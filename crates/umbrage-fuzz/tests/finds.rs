@@ -55,6 +55,6 @@ fn an_image_packed_by_b44_is_refused_by_one_line() {
         let file = file.to_bytes(&[0]);
         assert!(!values(&file));
         let line = umbrage_io::decode_values(&file, 64).unwrap_err().to_string();
-        assert!(line.starts_with("compression is B44") && line.contains("are read from none, RLE"), "{line}");
+        assert!(line.starts_with("compression is b44") && line.contains("are read from none, RLE"), "{line}");
     }
 }

@@ -122,7 +122,7 @@ fn a_thousand_wrong_pixels_are_called_what_the_pictures_say() {
     }
     let judged = found.values().sum::<usize>();
     assert!(judged >= 1000 && found.len() == 3, "{found:?}");
-    assert!(unjudged < judged / 10 && elsewhere < found["detachment"] / 4, "{found:?}, {unjudged}, {elsewhere}");
+    assert!(unjudged < judged / 10 && elsewhere < judged / 8, "{found:?}, {unjudged}, {elsewhere}");
 }
 
 /// A surface that faces away is dark whatever the map says of it, so that nothing there is a fault.
@@ -197,8 +197,9 @@ fn the_table_has_acne_without_a_bias_detachment_with_one_and_nothing_wrong_by_de
     let false_light = |i: usize, value: &[f32]| truth[i] == 1.0 && value[i] < 0.5;
     let bare = shadow("reeves87,bias=0");
     all(names("reeves87", &false_shadow), Some("acne"));
+    // The legs' narrow shadows, some hundreds of units from the legs: no bias of 25 passes these.
     for recipe in ["reeves87,bias=15", "reeves87,bias=25"] {
-        all(names(recipe, &|i, value| false_light(i, value) && bare[i] > 0.5), Some("detachment"));
+        all(names(recipe, &|i, value| false_light(i, value) && bare[i] > 0.5), Some("leak"));
     }
     all(names("auto", &|i, _| truth[i] == 0.0 && bare[i] > 0.5), None);
     all(names("auto", &|i, _| truth[i] == 1.0 && bare[i] > 0.5), None);
@@ -214,6 +215,26 @@ fn a_bias_is_not_blamed_for_what_it_does_not_reach() {
         "{said}"
     );
     assert!(!said.contains("detachment"), "{said}");
+}
+
+#[test]
+fn a_bias_detaches_shadows_near_what_throws_them() {
+    let scene = "gallery:table-close-up";
+    let truth = shadow("close-truth", scene, &["--truth"]);
+    let bare = shadow("close-bare", scene, &["--recipe", "reeves87,bias=0"]);
+    for bias in [15.0, 25.0] {
+        let recipe = format!("reeves87,bias={bias}");
+        let value = shadow("close", scene, &["--recipe", &recipe]);
+        let pixels = some(12, value.len(), |i| truth[i] == 1.0 && value[i] < 0.5 && bare[i] > 0.5);
+        let mut near = 0;
+        for (&i, said) in pixels.iter().zip(explained(scene, &pixels, &["--recipe", &recipe])) {
+            let distance = said["surfaces"][0]["blockers"][0]["distance"].as_f64().expect("a blocker");
+            let name = name(&said, value[i], truth[i]);
+            assert!(distance > bias || name.as_deref() == Some("detachment"), "{name:?}: {said}");
+            near += usize::from(distance <= bias);
+        }
+        assert!(near >= 5, "{recipe}: {near} of {}", pixels.len());
+    }
 }
 
 #[test]

@@ -20,7 +20,7 @@
 //!
 //! For a detachment the picture without bias, of the same filter, takes the place of the distance, so that thin shadows have it too: what the filter's
 //! width alone makes light is light in both. Acne may darken the one without bias, though. So most of the box must be dark in truth, and
-//! the result less than half as dark as all of the box is, and somewhere in the box what blocks the light must lie before the receiver's surface by no
+//! the result less than half as dark as all of the box is, and somewhere in the box what blocks the light must lie before what is compared by no
 //! more than the recipe's [largest bias](umbrage_recipe::Recipe::largest_bias): a bias passes nothing that is farther away. Two sheets that are closer together than the bias count as a detachment as well:
 //! without the bias the lower one would be dark. How large a detachment is, is the distance along the light's ray from the receiver to what truth
 //! says blocks it.

@@ -37,8 +37,8 @@ impl Judge<'_> {
         places.into_iter().filter_map(|place| self.settled(point, place, radius)).collect()
     }
 
-    /// Whether a recipe's bias can pass what truth says blocks a pixel's light: whether somewhere in the box that the filter looks at it lies before the
-    /// surface by no more than the recipe's [largest bias](Recipe::largest_bias), where that is compared. False without a bias, and for pixels that see nothing
+    /// Whether a recipe's bias can pass what truth says blocks a pixel's light: whether somewhere in the box that the filter looks at it lies before what
+    /// is compared by no more than the recipe's [largest bias](Recipe::largest_bias). False without a bias, and for pixels that see nothing
     /// in the light's maps.
     ///
     /// # Panics
@@ -54,14 +54,13 @@ impl Judge<'_> {
         let own = SurfacePoint { corner_offsets: [Vec3::ZERO; 4], ..point };
         let places = self.places(&point, view, (receiver.texel, reach));
         let zeta = |at: DVec3| -view.world_to_eye().transform_point3(at).z;
-        // One depth for all of the region is compared with what is stored about its middle; a plane's depths with what is stored about the place.
-        let least = if recipe.follows_plane() { f64::NEG_INFINITY } else { zeta(point.position) - most };
-        places.iter().chain([&own]).any(|place| {
-            self.blocker(place, view).is_some_and(|hit| {
-                let stored = zeta(hit.position);
-                stored >= least && zeta(place.position) - stored <= most
-            })
-        })
+        // A plane's depths are compared with what is stored about each place, one depth for all of the region with what is stored anywhere in it.
+        let compared =
+            |place: &SurfacePoint| zeta(if recipe.follows_plane() { place.position } else { point.position });
+        places
+            .iter()
+            .chain([&own])
+            .any(|place| self.blocker(place, view).is_some_and(|hit| compared(place) - zeta(hit.position) <= most))
     }
 
     /// What a ray from a point meets before the light of a view.
