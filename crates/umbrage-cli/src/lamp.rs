@@ -17,8 +17,7 @@ pub fn shadow_of(stage: &Stage, lamp: &Lamp, recipe: &Recipe) -> anyhow::Result<
     let light = &scene.lights[lamp.light];
     let seen = recipe.is_fitted().then(|| receivers(scene, &light.view));
     let with = LightUse { storage: Storage::Tiled, receivers: seen.as_deref(), moments: 1 };
-    // A spot too wide for one map is split by the recipe, which then knows its cone.
-    let views = if light.view.cone().is_some() { std::slice::from_ref(&light.view) } else { &lamp.views };
+    let views = lamp.whole_views(scene);
     let points = u64::from(recipe.most_points());
     if points > 1 {
         let texels: u64 = views.iter().map(|view| u64::from(view.size().element_product())).sum();

@@ -22,6 +22,12 @@ impl Lamp {
     pub fn is_called(&self, scene: &Scene, name: &str) -> bool {
         self.name == name || scene.lights[self.light].name == name
     }
+
+    /// The views that a judge and a recipe are given. A spot too wide for one map is split by the recipe; one view of it knows its cone.
+    pub fn whole_views<'a>(&'a self, scene: &'a Scene) -> &'a [View] {
+        let view = &scene.lights[self.light].view;
+        if view.cone().is_some() { std::slice::from_ref(view) } else { &self.views }
+    }
 }
 
 /// The lights that cast shadows and are named, or all of them where none is named.

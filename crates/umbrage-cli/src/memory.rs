@@ -57,7 +57,7 @@ impl Need {
         most.unwrap_or_else(default).saturating_sub(self.bytes())
     }
 
-    /// Texels of a map that may be held beside all this.
+    /// Texels of a map, or pixels of an image, that may be held beside all this.
     pub fn texels_left(&self, most: Option<u64>) -> u64 {
         self.left(most) / PER_TEXEL
     }

@@ -15,6 +15,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use umbrage_io::{encode_exr_values, encode_png_values};
+use umbrage_oracle::judge::Seen;
 use umbrage_oracle::{AreaLight, Geometry, RayCast, Truth};
 use umbrage_plane::{SurfacePoint, View};
 use umbrage_recipe::Recipe;
@@ -201,6 +202,17 @@ pub fn drawn_where(
     let turned: Vec<Turned<'_>> = shadows.iter().map(|shadow| Turned { shadow: *shadow, light: &light.view }).collect();
     let turned: Vec<&dyn Shadow> = turned.iter().map(|turned| turned as &dyn Shadow).collect();
     picture_where(&one, &turned, frame, wanted)
+}
+
+/// What a judge knows of a picture under one light.
+pub fn seen(picture: &Picture) -> Seen<'_> {
+    Seen {
+        position: &picture.position,
+        normal: &picture.normal,
+        object: &picture.object,
+        share: &picture.share,
+        facing: &picture.facing[0],
+    }
 }
 
 /// Rays toward a light, all of its area where it is given one.

@@ -17,6 +17,7 @@ mod paging;
 mod promises;
 mod target;
 mod text;
+mod values;
 
 pub use exr_bodies::{deep_exr, exr_blocks, exr_header};
 pub use exr_file::ExrFile;
@@ -28,3 +29,4 @@ pub use paging::paging;
 pub use promises::most_bytes;
 pub use target::{TARGETS, Target};
 pub use text::{lookup_lines, recipe};
+pub use values::values;

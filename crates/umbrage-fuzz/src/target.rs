@@ -6,6 +6,7 @@ use crate::gltf::gltf;
 use crate::mutate::Dice;
 use crate::paging::paging;
 use crate::text::{lookup_lines, recipe};
+use crate::values::{images, values};
 use glam::UVec2;
 use umbrage_scene::gallery;
 
@@ -21,11 +22,12 @@ pub struct Target {
 }
 
 /// All of them.
-pub const TARGETS: [Target; 7] = [
+pub const TARGETS: [Target; 8] = [
     Target { name: "exr_header", takes: exr_header, seeds: headers },
     Target { name: "exr_blocks", takes: exr_blocks, seeds: blocks },
     Target { name: "deep_exr", takes: deep_exr, seeds: deep_maps },
     Target { name: "paging", takes: paging, seeds: tiles },
+    Target { name: "values", takes: values, seeds: images },
     Target { name: "gltf", takes: gltf, seeds: scenes },
     Target { name: "recipe", takes: recipe, seeds: recipes },
     Target { name: "lookup_lines", takes: lookup_lines, seeds: lines },

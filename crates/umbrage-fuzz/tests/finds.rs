@@ -1,7 +1,7 @@
 //! What mutants and libFuzzer have found, kept.
 
 use std::ffi::OsString;
-use umbrage_fuzz::{ExrFile, flat, foreign, recipe};
+use umbrage_fuzz::{ExrFile, flat, foreign, recipe, values};
 use umbrage_recipe::Recipe;
 
 /// What a command says on stderr, and its code.
@@ -40,5 +40,21 @@ fn an_invalid_recipe_is_refused_by_one_short_line_without_control_characters() {
     let long = "x".repeat(100_000);
     for text in [&long, &format!("auto,{long}"), &format!("auto,{long}={long}"), &format!("woo92,samples={long}")] {
         assert!(!recipe(text.as_bytes()), "holds the line's length too");
+    }
+}
+
+/// Damaged B44 once stopped the program in builds that check sums.
+#[test]
+fn an_image_packed_by_b44_is_refused_by_one_line() {
+    let size = glam::UVec2::new(8, 8);
+    let good = umbrage_io::encode_exr_values(size, &[0.25; 64]).expect("an image");
+    assert!(values(&good));
+    for coder in [6, 7] {
+        let mut file = ExrFile::parse(&good).expect("sound");
+        file.parts[0].set("compression", "compression", &[coder]);
+        let file = file.to_bytes(&[0]);
+        assert!(!values(&file));
+        let line = umbrage_io::decode_values(&file, 64).unwrap_err().to_string();
+        assert!(line.starts_with("compression is b44") && line.contains("are read from none, RLE"), "{line}");
     }
 }

@@ -63,11 +63,23 @@ impl EngineBias {
         lift().unwrap_or(0.0)
     }
 
+    /// How much nearer to the light along its axis a receiver is compared, world units; `offset` is what a way along the normal contributes.
+    pub fn nearer(self, view: &View, receiver: &Receiver, offset: impl Fn(f64) -> f64) -> f64 {
+        let (normal, toward) = self.parts(view, receiver);
+        offset(normal) + toward
+    }
+
     fn moved(self, view: &View, receiver: &Receiver) -> Moved {
+        let (normal, toward) = self.parts(view, receiver);
+        Moved::by(view, receiver, normal, toward)
+    }
+
+    /// The way along the normal, and the one toward the light.
+    fn parts(self, view: &View, receiver: &Receiver) -> (f64, f64) {
         let WorldBias { constant, slope, normal } = self.of(view, receiver);
         let steps = f64::from(receiver.texel_world.max_element() * receiver.slope);
         let scaled = if slope == 0.0 { 0.0 } else { slope * steps };
-        Moved::by(view, receiver, normal, constant + scaled)
+        (normal, constant + scaled)
     }
 }
 

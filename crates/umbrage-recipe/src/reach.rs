@@ -65,6 +65,48 @@ impl Recipe {
         }
     }
 
+    /// The most by which what is compared anywhere in a receiver's region lies nearer to the light than without a bias ([`unbiased`](Self::unbiased)): the
+    /// larger end of a range, a cone's bias as far out as the filter looks, what grows with the slope, and how far nearer an offset along the
+    /// normal brings the receiver. World units along the light's axis (along the ray in a radial map), from 0; 0 for a recipe that has no bias, +∞ where a
+    /// bias has no bound, as on an edge-on surface.
+    ///
+    /// ```
+    /// use umbrage_plane::glam::{DVec3, UVec2, Vec3};
+    /// use umbrage_plane::{SurfacePoint, View};
+    /// use umbrage_recipe::Recipe;
+    ///
+    /// let light = View::orthographic(DVec3::Z * 5.0, DVec3::ZERO, DVec3::Y, 2.0, 2.0, 0.1, 9.0, UVec2::splat(64))?;
+    /// let receiver = light.receiver(&SurfacePoint::at(Vec3::ZERO, Vec3::Z))?;
+    /// let most = |text: &str| -> Result<f32, umbrage_recipe::RecipeError> { Ok(text.parse::<Recipe>()?.largest_bias(&light, &receiver)) };
+    /// assert_eq!(most("reeves87,bias=0.3..0.4")?, 0.4);
+    /// assert_eq!(most("auto")?, 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn largest_bias(&self, view: &View, receiver: &Receiver) -> f32 {
+        let Values { biased, slope, scaled, offset, .. } = &self.values;
+        // How much nearer along the axis an offset along the normal brings it.
+        let nearer =
+            |along: f64| receiver.offset(view, along).map_or(f64::INFINITY, |moved| moved.eye.z - receiver.eye.z);
+        let own = match self.values.depth {
+            DepthName::Constant | DepthName::Plane => 0.0,
+            DepthName::Cone => slope * (self.reach(view, receiver) * receiver.texel_world).length(),
+            DepthName::SlopeScaled => scaled.world(view, receiver),
+            DepthName::NormalOffset => nearer(offset.world(view, receiver)) as f32,
+            DepthName::Engine(bias) => bias.nearer(view, receiver, nearer) as f32,
+        };
+        let drawn = receiver.in_world(view, biased.low).max(receiver.in_world(view, biased.high));
+        // ∞ less ∞ is no bound either.
+        let sum = drawn + own;
+        if sum.is_nan() { f32::INFINITY } else { sum.max(0.0) }
+    }
+
+    /// Whether what is compared follows the receiver's tangent plane over its region, in one of its comparisons at least.
+    #[must_use]
+    pub fn follows_plane(&self) -> bool {
+        self.values.depth == DepthName::Plane || matches!(self.preset, PresetName::Auto | PresetName::WangMolnar94)
+    }
+
     /// Half-extents of the box about a receiver's place in the map, texels, within which lies everything that the filter reads for it,
     /// the samples of the texels included. A soft filter looks as far as its search goes, however narrow the blur that it then chooses.
     ///

@@ -18,21 +18,30 @@ impl Pattern for AreaTent {
 
     #[inline(always)]
     fn taps<S: Simd>(&self, simd: S, region: &Footprint, key: Key, mut each: impl FnMut(&Taps<S>)) {
-        let side = |away: f32x16<S>, half: f32| {
-            let foot = half - 0.5;
-            // The triangle's area from its middle to a place, to the left negative.
-            let area = |place: f32x16<S>| {
-                let place = place.max(f32x16::splat(simd, -foot)).min(f32x16::splat(simd, foot));
-                (place.abs() * -0.5 + foot) * place
-            };
-            (area(away + 0.5) - area(away - 0.5)).max(f32x16::splat(simd, 0.0))
-        };
         EveryTexel.taps(
             simd,
             region,
             key,
             #[inline(always)]
-            |taps| each(&weigh(simd, region, taps, side)),
+            |taps| {
+                each(&weigh(
+                    simd,
+                    region,
+                    taps,
+                    #[inline(always)]
+                    |away: f32x16<S>, half| {
+                        let foot = half - 0.5;
+                        (area(simd, away + 0.5, foot) - area(simd, away - 0.5, foot)).max(f32x16::splat(simd, 0.0))
+                    },
+                ));
+            },
         );
     }
+}
+
+/// The area of a triangle of slope 1 from its middle to a place, to the left negative; `foot` is half its width.
+#[inline(always)]
+fn area<S: Simd>(simd: S, place: f32x16<S>, foot: f32) -> f32x16<S> {
+    let place = place.max(f32x16::splat(simd, -foot)).min(f32x16::splat(simd, foot));
+    (place.abs() * -0.5 + foot) * place
 }

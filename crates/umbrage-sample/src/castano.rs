@@ -22,12 +22,17 @@ impl Castano {
     /// The weight at a distance of `t` thirds or quarters of the half-extent.
     #[inline(always)]
     fn at<S: Simd>(self, t: f32x16<S>) -> f32x16<S> {
-        let from = |end: f32| (-t + end).max(f32x16::splat(t.simd, 0.0));
         match self {
-            Self::Five => from(3.0) + from(2.0) - from(1.0),
-            Self::Seven => (from(3.0) + from(2.0) - from(1.0)) * 3.0 + from(4.0),
+            Self::Five => ramp(t, 3.0) + ramp(t, 2.0) - ramp(t, 1.0),
+            Self::Seven => (ramp(t, 3.0) + ramp(t, 2.0) - ramp(t, 1.0)) * 3.0 + ramp(t, 4.0),
         }
     }
+}
+
+/// How far `t` is before `end`; 0 behind it.
+#[inline(always)]
+fn ramp<S: Simd>(t: f32x16<S>, end: f32) -> f32x16<S> {
+    (-t + end).max(f32x16::splat(t.simd, 0.0))
 }
 
 impl Pattern for Castano {
@@ -39,13 +44,20 @@ impl Pattern for Castano {
     #[inline(always)]
     fn taps<S: Simd>(&self, simd: S, region: &Footprint, key: Key, mut each: impl FnMut(&Taps<S>)) {
         let parts = if *self == Self::Five { 3.0 } else { 4.0 };
-        let side = |away: f32x16<S>, half: f32| self.at(away * (parts / half));
         EveryTexel.taps(
             simd,
             region,
             key,
             #[inline(always)]
-            |taps| each(&weigh(simd, region, taps, side)),
+            |taps| {
+                each(&weigh(
+                    simd,
+                    region,
+                    taps,
+                    #[inline(always)]
+                    |away: f32x16<S>, half| self.at(away * (parts / half)),
+                ));
+            },
         );
     }
 }

@@ -128,7 +128,7 @@ const RULES: &[Rule] = &[
     Rule {
         package: "umbrage-fuzz",
         arrows: &["umbrage-cli"],
-        outside: &["exr", "glam"],
+        outside: &["crc32fast", "exr", "glam", "png"],
         tests: &["cap", "miniz_oxide", "serde_json"],
     },
     Rule { package: "umbrage-fuzz-targets", arrows: &["umbrage-fuzz"], outside: &["libfuzzer-sys"], tests: &[] },

@@ -15,7 +15,7 @@ pub fn read(path: &Path, invert: bool, size: UVec2, need: &Need, max_memory: Opt
     let shown = path.display();
     let need = Need { file_bytes: file_bytes(path)?, ..*need };
     need.check(max_memory).with_context(|| shown.to_string())?;
-    let image = read_values(path)?;
+    let image = read_values(path, need.texels_left(max_memory))?;
     if image.size != size {
         let [width, height] = image.size.to_array();
         return Err(Usage(format!(

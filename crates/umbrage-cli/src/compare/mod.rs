@@ -20,7 +20,7 @@ use std::time::Instant;
 use timed::Timed;
 use umbrage_io::{create_folder, write_bytes};
 use umbrage_oracle::Geometry;
-use umbrage_oracle::judge::{Drawn, Judge, Seen, Where};
+use umbrage_oracle::judge::{Drawn, Judge, Where};
 use umbrage_recipe::{Field, PresetName, Recipe};
 use umbrage_render::Frame;
 use umbrage_shadow::Shadow;
@@ -161,16 +161,9 @@ impl Plan<'_> {
         let rays = shadow::rays(stage, lamp, geometry, area, &frame);
         let mut truth = shadow::drawn(&stage.scene, lamp, &[&*rays], &frame);
         let turned = Turned { shadow: &*rays, light: &view };
-        let seen = Seen {
-            position: &truth.position,
-            normal: &truth.normal,
-            object: &truth.object,
-            share: &truth.share,
-            facing: &truth.facing[0],
-        };
-        // A spot too wide for one map is split by the recipe; one view of it knows its cone.
-        let views = if view.cone().is_some() { std::slice::from_ref(&view) } else { &lamp.views };
-        let judge = Judge::new((&stage.scene.camera, views), geometry, (&turned, &truth.shadow[0]), seen);
+        let views = lamp.whole_views(&stage.scene).to_vec();
+        let seen = shadow::seen(&truth);
+        let judge = Judge::new((&stage.scene.camera, &views), geometry, (&turned, &truth.shadow[0]), seen);
         progress.inc(1);
         let mut rows = Vec::new();
         for (recipe, map_size) in &self.recipes {

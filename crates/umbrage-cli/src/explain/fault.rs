@@ -1,12 +1,9 @@
-//! What is wrong with a region, by name.
+//! What is wrong with a judged pixel, by name.
 
 use std::fmt;
+use umbrage_oracle::judge::{DARK, LIT};
 use umbrage_plane::Receiver;
 use umbrage_shadow::Explanation;
-
-/// Truth below this counts as lit, truth above it as dark.
-const LIT: f32 = 0.05;
-const DARK: f32 = 0.95;
 
 /// A fault.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +15,7 @@ pub enum Fault {
         /// The slope-scaled bias that clears it, texels; `None` where the surface is edge-on.
         clears: Option<f64>,
     },
-    /// Lit where truth is dark, and dark without the bias.
+    /// Lit where truth is dark, and dark without the bias, which reaches what blocks the light.
     Detachment {
         /// From the receiver to what blocks it, along the ray, world units and widths of a texel.
         gap: f64,
@@ -26,6 +23,11 @@ pub enum Fault {
     },
     /// Lit where truth is dark, with or without a bias.
     Leak,
+    /// The same, but dark without the bias for what is stored of its own surface: what blocks the light is farther away than the bias reaches.
+    HiddenLeak {
+        /// From the receiver to what blocks it, along the ray, world units.
+        gap: f64,
+    },
 }
 
 impl Fault {
@@ -33,7 +35,7 @@ impl Fault {
         match self {
             Self::Acne { .. } => "acne",
             Self::Detachment { .. } => "detachment",
-            Self::Leak => "leak",
+            Self::Leak | Self::HiddenLeak { .. } => "leak",
         }
     }
 }
@@ -62,6 +64,12 @@ impl fmt::Display for Fault {
             Self::Leak => {
                 write!(f, "leak: the map knows nothing nearer than the receiver there, with or without a bias")
             }
+            Self::HiddenLeak { gap } => write!(
+                f,
+                "leak: what blocks the light is {} world units away, farther than the bias reaches; without it what is stored of the surface itself hides \
+                 the leak",
+                short(*gap)
+            ),
         }
     }
 }
@@ -78,7 +86,7 @@ pub struct Answers {
 }
 
 impl Answers {
-    /// A region's result and its truth, the maps that were looked up, and the distance to what blocks the light by rays.
+    /// A pixel's value and its truth, the maps that were looked up for one of its regions, and the distance to what blocks the light there by rays.
     pub fn new<'a>(fraction: f32, truth: f32, maps: impl Iterator<Item = &'a Explanation>, gap: Option<f64>) -> Self {
         let nearest = maps.filter_map(|explanation| Some((explanation.receiver?, nearer(explanation))));
         let nearest = nearest.reduce(|known, other| if other.1 > known.1 { other } else { known });
@@ -86,8 +94,12 @@ impl Answers {
     }
 }
 
-/// What is wrong with a region; `without` is its fraction without a bias.
-pub fn of(answers: &Answers, without: impl FnOnce() -> anyhow::Result<Option<f32>>) -> anyhow::Result<Option<Fault>> {
+/// What is wrong with a judged pixel; `without` is its value without a bias, `passes` whether the bias reaches what blocks the light.
+pub fn of(
+    answers: &Answers,
+    without: impl FnOnce() -> anyhow::Result<Option<f32>>,
+    passes: impl FnOnce() -> bool,
+) -> anyhow::Result<Option<Fault>> {
     let Answers { fraction, truth, nearest, gap } = *answers;
     if truth < LIT && fraction > 0.5 {
         let nearer = nearest.map_or(0.0, |(_, nearer)| nearer);
@@ -98,6 +110,9 @@ pub fn of(answers: &Answers, without: impl FnOnce() -> anyhow::Result<Option<f32
     if truth > DARK && fraction < 0.5 {
         if without()?.is_none_or(|dark| dark <= 0.5) {
             return Ok(Some(Fault::Leak));
+        }
+        if !passes() {
+            return Ok(Some(Fault::HiddenLeak { gap }));
         }
         let texel = nearest.map_or(f64::INFINITY, |(receiver, _)| f64::from(receiver.texel_world.max_element()));
         return Ok(Some(Fault::Detachment { gap, texels: gap / texel }));

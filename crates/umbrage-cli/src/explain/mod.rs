@@ -22,9 +22,10 @@ use serde_json::json;
 use std::cell::OnceCell;
 use umbrage_io::write_bytes;
 use umbrage_oracle::Geometry;
+use umbrage_oracle::judge::Judge;
 use umbrage_plane::TexelRect;
 use umbrage_recipe::Recipe;
-use umbrage_render::{Frame, picture_where};
+use umbrage_render::{Frame, Picture};
 use umbrage_shadow::{Explanation, Shadow};
 pub use words::Words;
 
@@ -95,12 +96,26 @@ impl<'a> Lit<'a> {
     /// # Errors
     /// A recipe that cannot be used without its bias.
     pub fn explained(&self, at: [u32; 2]) -> anyhow::Result<Words<'_>> {
-        let index = at[1] * self.stage.scene.camera.size().x + at[0];
+        let camera = &self.stage.scene.camera;
+        let index = at[1] * camera.size().x + at[0];
         let recorder = Recorder::new(self.shadow);
-        let value = self.pixel(&recorder, &self.frame, index);
-        let truth = self.pixel(&*self.rays(), &Frame { every_sample: true, ..self.frame }, index);
-        let regions = recorder.asked()?.iter().map(|asked| self.region(asked)).collect::<anyhow::Result<_>>()?;
-        Ok(Words { at, light: &self.lamp.name, recipe: self.recipe.to_string(), value, truth, regions })
+        let value = self.pixel(&recorder, &self.frame, index).shadow[0][index as usize];
+        let rays = self.rays();
+        let exact = self.pixel(&*rays, &Frame { every_sample: true, ..self.frame }, index);
+        let truth = exact.shadow[0][index as usize];
+        let mut regions: Vec<Region> = recorder.asked()?.iter().map(|asked| self.region(asked)).collect();
+        let light = &self.stage.scene.lights[self.lamp.light].view;
+        let turned = Turned { shadow: &*rays, light };
+        let views = self.lamp.whole_views(&self.stage.scene);
+        let judge = Judge::new((camera, views), self.geometry, (&turned, &exact.shadow[0]), shadow::seen(&exact));
+        let unjudged = judge.unjudged(index as usize);
+        if unjudged.is_none() {
+            for region in &mut regions {
+                let passes = || judge.bias_passes(index as usize, &self.recipe);
+                region.fault = fault::of(&region.answers(value, truth), || self.without_bias(index), passes)?;
+            }
+        }
+        Ok(Words { at, light: &self.lamp.name, recipe: self.recipe.to_string(), value, truth, unjudged, regions })
     }
 
     /// The truth.
@@ -108,14 +123,12 @@ impl<'a> Lit<'a> {
         shadow::rays(self.stage, self.lamp, self.geometry, None, &self.frame)
     }
 
-    /// A pixel as `umbrage shadow` draws it.
-    fn pixel(&self, shadow: &dyn Shadow, frame: &Frame, index: u32) -> f32 {
-        let one = shadow::lit_alone(&self.stage.scene, self.lamp, 1);
-        let turned = Turned { shadow, light: &one.lights[0].view };
-        picture_where(&one, &[&turned], frame, |other| other == index).shadow[0][index as usize]
+    /// The picture that `umbrage shadow` draws, of one pixel.
+    fn pixel(&self, shadow: &dyn Shadow, frame: &Frame, index: u32) -> Picture {
+        shadow::drawn_where(&self.stage.scene, self.lamp, &[shadow], frame, |other| other == index)
     }
 
-    fn region(&self, asked: &Asked) -> anyhow::Result<Region> {
+    fn region(&self, asked: &Asked) -> Region {
         let scene = &self.stage.scene;
         let name =
             |object: u32| scene.objects.get(object as usize).map_or_else(String::new, |object| object.name.clone());
@@ -125,29 +138,28 @@ impl<'a> Lit<'a> {
             (explanation, owners)
         };
         let maps = self.shadow.explain(&asked.point, asked.key).into_iter().map(owned).collect();
-        let light = scene.lights[self.lamp.light].view.light();
-        let blockers = asked::blockers(self.geometry, &asked.point, light).into_iter();
-        let mut region = Region {
+        let light = &scene.lights[self.lamp.light].view;
+        let blockers = asked::blockers(self.geometry, &asked.point, light.light()).into_iter();
+        Region {
             asked: *asked,
             object: name(asked.point.object),
             fraction: asked.fraction,
             maps,
             blockers: blockers.map(|(object, distance)| (name(object), distance)).collect(),
             truth: self.rays().fraction(&asked.point, asked.key),
+            cosine: asked.point.normal.as_dvec3().dot(light.toward_eye(asked.point.position)),
             fault: None,
-        };
-        region.fault = fault::of(&region.answers(), || self.without_bias(asked))?;
-        Ok(region)
+        }
     }
 
-    /// The result of the same recipe without a bias.
-    fn without_bias(&self, asked: &Asked) -> anyhow::Result<Option<f32>> {
+    /// A pixel by the same recipe without a bias.
+    fn without_bias(&self, index: u32) -> anyhow::Result<Option<f32>> {
         if self.unbiased.get().is_none() {
             let recipe = self.recipe.unbiased();
             let made = recipe.map(|recipe| lamp::shadow_of(self.stage, self.lamp, &recipe)).transpose()?;
             let _ = self.unbiased.set(made.map(|made| made.shadow));
         }
         let unbiased = self.unbiased.get().and_then(Option::as_ref);
-        Ok(unbiased.map(|shadow| shadow.fraction(&asked.point, asked.key)))
+        Ok(unbiased.map(|shadow| self.pixel(&**shadow, &self.frame, index).shadow[0][index as usize]))
     }
 }

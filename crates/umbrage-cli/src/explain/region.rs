@@ -19,7 +19,9 @@ pub struct Region {
     pub blockers: Vec<(String, f64)>,
     /// The truth of its point, 0 lit to 1 dark.
     pub truth: f32,
-    /// What is wrong, if anything.
+    /// Cosine of its normal and the direction to the light. Where it is not positive the surface is dark, whatever the filter answers.
+    pub cosine: f64,
+    /// What is wrong with the pixel, if anything.
     pub fault: Option<Fault>,
 }
 
@@ -29,9 +31,14 @@ impl Region {
         self.maps.iter().find_map(|(explanation, owners)| svg::drawn(explanation, owners))
     }
 
-    /// The evidence by which its fault is named.
-    pub fn answers(&self) -> Answers {
+    /// The evidence by which the fault of its pixel, of a value and a truth, is named.
+    pub fn answers(&self, value: f32, truth: f32) -> Answers {
         let maps = self.maps.iter().map(|(explanation, _)| explanation);
-        Answers::new(self.fraction, self.truth, maps, self.blockers.first().map(|(_, distance)| *distance))
+        Answers::new(value, truth, maps, self.blockers.first().map(|(_, distance)| *distance))
+    }
+
+    /// The filter's answer, if the surface faces away from the light and so is dark although the filter says otherwise.
+    pub fn overruled(&self) -> Option<f32> {
+        (self.cosine <= 0.0 && self.fraction != 1.0).then_some(self.fraction)
     }
 }

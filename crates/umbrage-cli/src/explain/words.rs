@@ -6,6 +6,7 @@ use crate::bias::short;
 use glam::DVec3;
 use serde_json::{Value, json};
 use std::fmt;
+use umbrage_oracle::judge::Unjudged;
 use umbrage_shadow::{Crossing, Explanation, PlaceJudged, Question, TapJudged, Vote};
 
 /// Results that differ by no more than this agree.
@@ -21,6 +22,8 @@ pub struct Words<'a> {
     pub value: f32,
     /// The same by rays.
     pub truth: f32,
+    /// Why the pixel is not judged, if it is not.
+    pub unjudged: Option<Unjudged>,
     pub regions: Vec<Region>,
 }
 
@@ -28,7 +31,7 @@ impl Words<'_> {
     pub fn json(&self) -> Value {
         json!({
             "light": self.light, "recipe": self.recipe, "pixel": self.at,
-            "value": self.value, "truth": self.truth,
+            "value": self.value, "truth": self.truth, "not_judged": self.unjudged.map(|why| why.to_string()),
             "surfaces": self.regions.iter().map(Region::json).collect::<Vec<_>>(),
         })
     }
@@ -36,12 +39,18 @@ impl Words<'_> {
 
 impl fmt::Display for Words<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { at: [x, y], light, recipe, value, truth, regions } = self;
+        let Self { at: [x, y], light, recipe, value, truth, unjudged, regions } = self;
         writeln!(f, "pixel {x},{y} under {light} by {recipe}: {value} in shadow; by rays {truth}")?;
         if regions.is_empty() {
             return writeln!(f, "nothing is seen there");
         }
-        regions.iter().try_for_each(|region| write!(f, "{region}"))
+        for region in regions {
+            write!(f, "{region}")?;
+            if unjudged.is_none() || region.overruled().is_some() {
+                region.verdict(f)?;
+            }
+        }
+        unjudged.map_or(Ok(()), |why| writeln!(f, "not judged, so no fault is named: {why}"))
     }
 }
 
@@ -51,11 +60,32 @@ impl Region {
         let vector = |v: DVec3| json!(v.to_array());
         json!({
             "object": self.object, "position": vector(point.position), "normal": vector(point.normal.as_dvec3()),
-            "fraction": self.fraction, "truth": self.truth,
+            "fraction": self.fraction, "truth": self.truth, "cosine": self.cosine,
             "fault": self.fault.as_ref().map(|fault| json!({ "name": fault.name(), "about": fault.to_string() })),
             "blockers": self.blockers.iter().map(|(object, distance)| json!({ "object": object, "distance": distance })).collect::<Vec<_>>(),
             "maps": self.maps.iter().map(|(explanation, owners)| map_json(explanation, owners)).collect::<Vec<_>>(),
         })
+    }
+}
+
+impl Region {
+    /// The last line: how the answer compares with truth.
+    fn verdict(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(answer) = self.overruled() {
+            return writeln!(
+                f,
+                "  dark, although the map says {answer}: it faces away from the light, whatever the map stores"
+            );
+        }
+        let off = (self.fraction - self.truth).abs();
+        match &self.fault {
+            Some(fault) => writeln!(f, "  {fault}"),
+            None if off <= NEAR => writeln!(f, "  correct: both agree"),
+            None if (self.fraction > 0.5) == (self.truth > 0.5) => {
+                writeln!(f, "  off by {off}, on the right side of a half: no fault by name")
+            }
+            None => writeln!(f, "  off by {off}, where the pixel's truth is neither lit nor dark: no fault by name"),
+        }
     }
 }
 
@@ -64,11 +94,12 @@ impl fmt::Display for Region {
         let point = &self.asked.point;
         writeln!(
             f,
-            "sees {:?} at {}, normal {}: {} in shadow",
+            "sees {:?} at {}, normal {}: {} in shadow{}",
             self.object,
             place(point.position),
             place(point.normal.as_dvec3()),
-            self.fraction
+            self.fraction,
+            if self.overruled().is_some() { " by the map" } else { "" }
         )?;
         for (explanation, owners) in &self.maps {
             map(f, explanation, owners)?;
@@ -85,15 +116,7 @@ impl fmt::Display for Region {
             }
             (None, truth) => writeln!(f, "{truth} in shadow: it faces away, or lies beyond where the light shines")?,
         }
-        match &self.fault {
-            Some(fault) => writeln!(f, "  {fault}"),
-            None if (self.fraction - self.truth).abs() <= NEAR => writeln!(f, "  correct: both agree"),
-            None => writeln!(
-                f,
-                "  off by {}, on the right side of a half: no fault by name",
-                (self.fraction - self.truth).abs()
-            ),
-        }
+        Ok(())
     }
 }
 

@@ -9,7 +9,7 @@ use crate::shadow::{self, Turned};
 use crate::stage::Stage;
 use std::sync::Arc;
 use umbrage_oracle::Geometry;
-use umbrage_oracle::judge::{Drawn, Judge, Seen};
+use umbrage_oracle::judge::{Drawn, Judge};
 use umbrage_plane::View;
 use umbrage_recipe::{LightShadow, Recipe};
 use umbrage_render::{Frame, Picture};
@@ -152,16 +152,8 @@ impl Held {
         let view = &scene.lights[lamp.light].view;
         let rays = Until { shadow: &*rays, stop };
         let turned = Turned { shadow: &rays, light: view };
-        let seen = Seen {
-            position: &truth.position,
-            normal: &truth.normal,
-            object: &truth.object,
-            share: &truth.share,
-            facing: &truth.facing[0],
-        };
-        // A spot too wide for one map is split by the recipe; one view of it knows its cone.
-        let views = if view.cone().is_some() { std::slice::from_ref(view) } else { &lamp.views };
-        let judge = Judge::new((&scene.camera, views), &geometry, (&turned, &truth.shadow[0]), seen);
+        let views = lamp.whole_views(scene);
+        let judge = Judge::new((&scene.camera, views), &geometry, (&turned, &truth.shadow[0]), shadow::seen(&truth));
         let without = results.get(1).map(Vec::as_slice);
         let score = judge.score(&Drawn { result: &results[0], recipe: Some(&recipe), unbiased: without, again: &[] });
         check(stop)?;

@@ -3,6 +3,7 @@
 use super::region::Reach;
 use super::{DARK, Judge, LIT};
 use rayon::prelude::*;
+use umbrage_recipe::Recipe;
 
 /// The pixels of each fault, rows from the top. The default is of an image without pixels.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -30,8 +31,10 @@ enum Around {
 }
 
 impl Judge<'_> {
-    /// Marks the faults of a result; `unbiased` is the same without any bias, where it has one.
-    pub(super) fn marks(&self, result: &[f32], unbiased: Option<&[f32]>, reach: Option<&Reach<'_>>) -> Where {
+    /// Marks the faults of a result of a recipe; `unbiased` is the same without any bias, where it has one.
+    pub(super) fn marks(&self, result: &[f32], unbiased: Option<&[f32]>, recipe: Option<&Recipe>) -> Where {
+        let reach = recipe.map(|recipe| move |view: &_, receiver: &_| recipe.reach(view, receiver));
+        let reach = reach.as_ref().map(|reach| reach as &Reach<'_>);
         let pixels = self.truth.len();
         let judged = |pixel: usize| self.judged[pixel];
         let dark = |pixel: usize| judged(pixel) && self.truth[pixel] < LIT && result[pixel] > 0.5;
@@ -51,7 +54,8 @@ impl Judge<'_> {
                     // What the filter's width makes light is about as dark as all of the box.
                     Around::MostlyDark(mean) => result[pixel] < 0.5 * mean,
                     Around::Mixed => false,
-                };
+                }
+                && recipe.is_some_and(|recipe| self.bias_passes(pixel, recipe));
             [false, detached, matches!(around, Around::Alike) && !detached]
         };
         let kinds: Vec<[bool; 3]> = (0..pixels).into_par_iter().map(kind).collect();

@@ -9,7 +9,7 @@
 //! | false shadow | judged, truth below [`LIT`], result above ½ |
 //! | false light | judged, truth above [`DARK`], result below ½ |
 //! | acne | false shadow farther from truth's edges than the filter looks |
-//! | detachment | false light that is dark in the same picture without any bias, and not for the filter's width |
+//! | detachment | false light that is dark in the same picture without any bias, not for the filter's width, and where the bias reaches what blocks the light |
 //! | leak | other false light farther from truth's edges than the filter looks |
 //!
 //! **How far the filter looks.** A filter looks at a box of the map about the receiver's place ([`Recipe::reach`](umbrage_recipe::Recipe::reach)), and can be
@@ -20,7 +20,8 @@
 //!
 //! For a detachment the picture without bias, of the same filter, takes the place of the distance, so that thin shadows have it too: what the filter's
 //! width alone makes light is light in both. Acne may darken the one without bias, though. So most of the box must be dark in truth, and
-//! the result less than half as dark as all of the box is. Two sheets that are closer together than the bias count as a detachment as well:
+//! the result less than half as dark as all of the box is, and somewhere in the box what blocks the light must lie before what is compared by no
+//! more than the recipe's [largest bias](umbrage_recipe::Recipe::largest_bias): a bias passes nothing that is farther away. Two sheets that are closer together than the bias count as a detachment as well:
 //! without the bias the lower one would be dark. How large a detachment is, is the distance along the light's ray from the receiver to what truth
 //! says blocks it.
 //!
@@ -30,9 +31,11 @@
 mod marks;
 mod region;
 mod score;
+mod unjudged;
 
 pub use marks::Where;
 pub use score::{Drawn, Score, Size};
+pub use unjudged::Unjudged;
 
 use glam::{DVec2, DVec3, UVec2, Vec3};
 use rayon::prelude::*;
@@ -105,7 +108,7 @@ impl<'a> Judge<'a> {
             truth,
             judged: Vec::new(),
         };
-        judge.judged = (0..pixels).into_par_iter().map(|pixel| judge.is_judged(pixel)).collect();
+        judge.judged = (0..pixels).into_par_iter().map(|pixel| judge.unjudged(pixel).is_none()).collect();
         judge
     }
 
@@ -122,24 +125,6 @@ impl<'a> Judge<'a> {
     /// Truth, 1 dark.
     pub fn truth(&self) -> &'a [f32] {
         self.truth
-    }
-
-    fn is_judged(&self, pixel: usize) -> bool {
-        let Seen { normal, share, facing, .. } = self.seen;
-        if share[pixel] != 1.0 || facing[pixel] <= FACING {
-            return false;
-        }
-        let Some(point) = self.point(pixel) else { return false };
-        let Some((view, receiver)) = self.received(&point) else { return false };
-        let cosine = normal[pixel].as_dvec3().dot(view.toward_eye(point.position)) as f32;
-        // A crease of one thing is two surfaces.
-        if cosine <= FACING || (cosine - facing[pixel]).abs() > FACING {
-            return false;
-        }
-        let corner = |corner: &DVec3| {
-            self.received(&SurfacePoint { position: *corner, corner_offsets: [Vec3::ZERO; 4], ..point }).is_some()
-        };
-        receiver.facing > 0.0 && point.corners().iter().all(corner)
     }
 
     /// What a pixel sees, with the pixel's own extent on the tangent plane; `None` where that is edge-on.

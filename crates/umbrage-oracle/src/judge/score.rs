@@ -87,8 +87,7 @@ impl Judge<'_> {
         let Drawn { result, recipe, unbiased, again } = *drawn;
         let all = again.iter().copied().chain(unbiased).chain([result]);
         assert!(all.into_iter().all(|one| one.len() == self.truth.len()), "an image of another size than truth");
-        let reach = recipe.map(|recipe| move |view: &_, receiver: &_| recipe.reach(view, receiver));
-        let places = self.marks(result, unbiased, reach.as_ref().map(|reach| reach as &super::region::Reach<'_>));
+        let places = self.marks(result, unbiased, recipe);
         let judged = self.judged.iter().filter(|judged| **judged).count();
         let share = |mask: &Vec<bool>| (judged > 0).then(|| count(mask) as f64 / judged as f64);
         let (own, exact) = (self.masked(result), self.masked(self.truth));

@@ -108,6 +108,32 @@ impl Picture {
     }
 }
 
+/// The worst that pictures can say: all is lit, and without a bias all would be dark.
+#[test]
+fn a_bias_detaches_nothing_that_is_farther_away_than_it_reaches() {
+    let (picture, geometry) = Picture::new(gallery::table(), 96, 256);
+    let rays = RayCast::new(&geometry, &picture.light());
+    let truth = picture.image(&rays, 0);
+    let judge = picture.judge(&geometry, &rays, &truth);
+    let (lit, dark) = (vec![0.0; truth.len()], vec![1.0; truth.len()]);
+    let score = |text: &str| {
+        let recipe: Recipe = text.parse().expect("a recipe");
+        judge.score(&Drawn { result: &lit, recipe: Some(&recipe), unbiased: Some(&dark), again: &[] })
+    };
+    for text in
+        ["auto", "woo92", "reeves87,bias=0", "burley,slope=0", "reeves87,depth=normal-offset,normal-offset=0,bias=0"]
+    {
+        let score = score(text);
+        assert!(score.false_light > Some(0.02) && score.detachment == Some(0.0), "{text}: {:?}", score.detachment);
+        assert!(score.leak > Some(0.0) && score.detached.is_none(), "{text}: {:?}", score.leak);
+    }
+    let shares = ["0.1", "60", "400", "4000"].map(|bias| {
+        let score = score(&format!("reeves87,bias={bias},res-factor=1"));
+        score.detachment.expect("a recipe")
+    });
+    assert!(shares.is_sorted() && shares[0] < 0.25 * shares[3] && shares[3] > 0.01, "{shares:?}");
+}
+
 #[test]
 fn truth_has_no_fault() {
     let (picture, geometry) = Picture::new(gallery::table(), 96, 256);
