@@ -225,7 +225,7 @@ fn a_preset_over_another_surface_is_refused_unless_it_is_meant() {
     let first = recipe("reeves87").bake(&lamp(), boards());
     let refused = |text: &str, map: &Map| recipe(text).bind(map, Storage::Tiled).err().map(|error| error.to_string());
     let error = refused("woo92", &first).unwrap();
-    assert!(error.starts_with("map = \"first\": expected midpoint, as woo92 wants it"), "{error}");
+    assert!(error.starts_with("map = \"first\": expected midpoint, as woo92 needs it"), "{error}");
     assert!(refused("wang-molnar94", &first).unwrap().contains("expected back-face or second, as wang-molnar94"));
     assert_eq!(refused("woo92,stored=first", &first), None);
     let error = refused("auto", &first).unwrap();
@@ -234,7 +234,7 @@ fn a_preset_over_another_surface_is_refused_unless_it_is_meant() {
     let midpoints = recipe("woo92").bake(&lamp(), boards());
     assert!(refused("reeves87", &midpoints).unwrap().contains("\"midpoint\""));
     assert_eq!(refused("reeves87,stored=midpoint", &midpoints), None);
-    assert!(refused("woo92,stored=first", &midpoints).unwrap().contains("as the recipe's stored= wants it"));
+    assert!(refused("woo92,stored=first", &midpoints).unwrap().contains("as the recipe's stored= needs it"));
     let second = recipe("burley,stored=second").bake(&lamp(), boards());
     assert_eq!(refused("wang-molnar94", &second), None, "the paper finds them either way");
     // The caller may say so instead.
