@@ -119,6 +119,7 @@ impl View {
     }
 
     /// The plane through `eye_point` with `eye_normal` (need not be unit) as a key over texels; `None` when it is edge-on to the light, so that no key exists.
+    #[inline(always)]
     pub fn affine(&self, eye_point: DVec3, eye_normal: DVec3) -> Option<Affine> {
         let plane = self.plane(eye_point, eye_normal);
         (plane.c.is_finite() && plane.dx.is_finite() && plane.dy.is_finite()).then_some(plane)
