@@ -179,7 +179,7 @@ fn a_pixel_that_sees_several_surfaces_or_what_the_light_does_not_reach_has_no_fa
 }
 
 #[test]
-fn the_table_has_acne_without_a_bias_detachment_with_one_and_nothing_wrong_by_default() {
+fn the_table_has_acne_without_a_bias_leaks_far_from_its_legs_with_one_and_nothing_wrong_by_default() {
     let scene = "gallery:table";
     let truth = shadow("table-truth", scene, &["--truth"]);
     let shadow = |recipe: &str| shadow("table", scene, &["--recipe", recipe]);
