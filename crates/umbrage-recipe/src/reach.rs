@@ -75,8 +75,8 @@ impl Recipe {
     /// use umbrage_plane::{SurfacePoint, View};
     /// use umbrage_recipe::Recipe;
     ///
-    /// let light = View::orthographic(DVec3::Z * 5.0, DVec3::ZERO, DVec3::Y, 2.0, 2.0, 0.1, 9.0, UVec2::splat(64))?;
-    /// let receiver = light.receiver(&SurfacePoint::at(Vec3::ZERO, Vec3::Z))?;
+    /// let light = View::orthographic(DVec3::Z * 5.0, DVec3::ZERO, DVec3::Y, 2.0, 0.1, 9.0, UVec2::splat(64))?;
+    /// let receiver = light.receiver(&SurfacePoint::at(Vec3::ZERO, Vec3::Z)).expect("before the light");
     /// let most = |text: &str| -> Result<f32, umbrage_recipe::RecipeError> { Ok(text.parse::<Recipe>()?.largest_bias(&light, &receiver)) };
     /// assert_eq!(most("reeves87,bias=0.3..0.4")?, 0.4);
     /// assert_eq!(most("auto")?, 0.0);
