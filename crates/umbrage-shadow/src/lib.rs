@@ -1,6 +1,6 @@
 //! The shadow algorithms: a receiver and a map give the fraction of the receiver that is in shadow.
 //!
-//! An algorithm is three choices: **which surface is stored** (a depth rule, `umbrage-depth`), ***where the map is
+//! An algorithm is three choices: **which surface is stored** (a depth rule, `umbrage-depth`), **where the map is
 //! looked up** (a [`Pattern`](umbrage_sample::Pattern)) and **which depth is compared there** (a [`ReceiverDepth`]). A [`Filter`]
 //! combines the results, and [`ShadowMap`] binds a filter to a map so that a renderer sees one thing: [`Shadow`].
 //!
