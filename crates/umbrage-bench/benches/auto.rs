@@ -16,7 +16,7 @@ use umbrage_shadow::Shadow;
 
 const TIMES: usize = 5;
 
-/// Keeps the points that it is asked about.
+/// Keeps the points that it is given.
 struct Seen(Mutex<Vec<SurfacePoint>>);
 
 impl Shadow for Seen {

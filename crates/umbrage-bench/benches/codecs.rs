@@ -1,6 +1,6 @@
 //! Maps to bytes of a file and back.
 //!
-//! Ids: `codec/<kind>/<direction>/<texels a side>`, elements are texels.
+//! Ids: `codec/<kind>/<direction>/<texels per side>`, elements are texels.
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use umbrage_bake::{Deep, bake_deep};

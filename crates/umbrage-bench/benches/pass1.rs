@@ -1,6 +1,6 @@
 //! Pass 1: triangles to a map, beside `euc` and the memory's limit; then depth rules and facets of a knot.
 //!
-//! Ids: `pass1/<mesh>/<by>/<texels a side>` with elements the fragments, and `rules/<surface>/<texels a side>` with elements the
+//! Ids: `pass1/<mesh>/<by>/<texels per side>` with elements the fragments, and `rules/<surface>/<texels per side>` with elements the
 //! texels. One thread.
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;

@@ -1,6 +1,6 @@
 //! Pass 2: the look-ups of a whole picture, 1024² regions of three texels to each side, and the listing of 1987 beside them.
 //!
-//! Ids: `pass2/<filter>/<storage>/<from>/<texels a side>`, elements are receivers. *From* is `world` with the way into the light's
+//! Ids: `pass2/<filter>/<storage>/<from>/<texels per side>`, elements are receivers. *From* is `world` with the way into the light's
 //! space, and `light` without it. One thread.
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;

@@ -18,7 +18,7 @@ const CAMERA: DVec3 = DVec3::new(0.0, 14.0, 9.0);
 pub struct Scene {
     /// The triangles.
     pub mesh: Mesh,
-    /// One for each pixel that is asked, row by row, with the pixel's extent on the surface.
+    /// One for each pixel that is looked up, row by row, with the pixel's extent on the surface.
     pub points: Vec<SurfacePoint>,
 }
 

@@ -43,7 +43,7 @@ impl<'a> Cursor<'a> {
 
     fn length(&mut self) -> Result<usize, String> {
         let number = self.number()?;
-        usize::try_from(number).map_err(|_| format!("{number} is no length"))
+        usize::try_from(number).map_err(|_| format!("{number} is not a length"))
     }
 
     fn long(&mut self) -> Result<u64, String> {

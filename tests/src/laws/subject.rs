@@ -26,7 +26,7 @@ impl Subject {
         Self { kept, ..self }
     }
 
-    /// A map as the filter is asked over it: what a law asks many times it makes once.
+    /// A map as the filter looks it up: what a law needs many times is made once.
     pub fn kept(&self, map: Map) -> Map {
         (self.kept)(map)
     }

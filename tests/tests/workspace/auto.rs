@@ -1,4 +1,4 @@
-//! The default over maps of facets: right at contacts, at tile and face borders and by the rules, and the same bits however it is asked.
+//! The default over maps of facets: right at contacts, at tile and face borders and by the rules, and the same bits however points are batched.
 
 use glam::{DVec3, UVec2, Vec3};
 use umbrage_bake::{Refinement, bake_refined};
@@ -145,7 +145,7 @@ fn the_six_maps_of_a_lamp_are_one_light() {
     let views = cube_views(DVec3::ZERO, 0.1, 40.0, 512).unwrap();
     let maps = views.map(|view| bake_refined(&view, triangles.iter().copied(), &Refinement::default()).map);
     let lamp = Around::new(DualPlane::default(), maps.to_vec()).unwrap();
-    // The same with each of the maps fitted to what is asked about: what lies about the seam between two of them.
+    // The same with each of the maps fitted to what is looked up: what lies about the seam between two of them.
     let part = DVec3::new(1.0, 1.0, 0.2).normalize();
     let toward = |point: &SurfacePoint| point.position.normalize().dot(part) > 0.88;
     let asked: Vec<SurfacePoint> = points(&boxes, 500_000, 0.04).into_iter().filter(toward).collect();
@@ -286,7 +286,7 @@ fn the_same_bits_one_by_one_together_and_without_wide_instructions() {
     }
 }
 
-/// Whatever the rules leave to the map is asked of it, however far outside it lies.
+/// Whatever the rules leave to the map is looked up in it, however far outside it lies.
 #[test]
 fn nothing_is_seen_far_outside_the_map() {
     let compare = Rules { outside: umbrage_plane::Verdict::Compare, ..Rules::VOLUME };

@@ -174,7 +174,7 @@ fn tags_and_planar_shadows_have_the_same_holes() {
     }
 }
 
-/// Two moments whose boards have their holes where the other has none: each is asked about its own.
+/// Two moments whose boards have their holes where the other has none: each is tested by its own.
 #[test]
 fn every_moment_has_its_own_holes() {
     let uvs = board().uvs.iter().map(|uv| *uv + Vec2::X / SQUARES as f32).collect();
@@ -277,7 +277,7 @@ fn a_texture_lies_on_the_surface_and_not_on_the_picture() {
     }
 }
 
-/// What has an alpha of 1 and is asked for more is not there at all, solid or not.
+/// What has an alpha of 1 where more is needed is not there at all, solid or not.
 #[test]
 fn what_is_cut_away_altogether_is_as_if_it_were_not() {
     let ball = Object::solid("ball", Mesh::sphere(Vec3::Y * 4.0, 2.0, 32), Material::matt(Vec3::ONE));

@@ -11,7 +11,7 @@ use umbrage_scene::gallery;
 
 const TEXELS: u64 = 1 << 20;
 
-/// The same answers to everything that can be asked: a map may equal another only if it gives them.
+/// The same answers to everything: a map may equal another only if it gives them.
 fn same(read: &FacetMap, map: &FacetMap, what: &str) {
     assert!(read == map, "{what}");
     assert_eq!((read.fine(), read.slots(), read.bytes()), (map.fine(), map.slots(), map.bytes()), "{what}");

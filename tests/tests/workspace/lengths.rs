@@ -20,7 +20,7 @@ fn every_shadow(geometry: &Geometry) -> Vec<(&'static str, Box<dyn Shadow + '_>)
     let ground = Ground { centre: DVec3::ZERO, normal: DVec3::Z, half_side: 80.0 };
     let planar = Planar::new(&scene, &scene.lights[0].view, ground, 1, 16).unwrap();
     let ray = || RayCast::everywhere(geometry, DVec4::Y);
-    // Red glass: what passes it is asked for once for each colour.
+    // Red glass: what passes it is evaluated once for each colour.
     let red = vec![Step { depth: 5.0, passes: Vec3::new(0.9, 0.1, 0.1) }];
     let glass = |view: &View| DeepMap::new(*view, 0.0, vec![red.clone(); 64]).unwrap();
     vec![

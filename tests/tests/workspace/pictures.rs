@@ -62,7 +62,7 @@ fn c9_threads_and_storages_change_no_bit() {
     }
 }
 
-/// Batches of thousands of points are split over the threads of a pool, where the renderer asks for that: each answer is that of its point alone.
+/// Batches of thousands of points are split over the threads of a pool, where the renderer wants that: each answer is that of its point alone.
 #[test]
 fn c9_batches_of_any_length_are_the_bits_of_their_points() {
     let scene = small(gallery::sphere_plane(), 8, 128);

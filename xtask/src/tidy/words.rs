@@ -1,27 +1,5 @@
 //! Words that a native reader stumbles on, in comments and messages.
 
-/// Where they have been mended; whatever is mended elsewhere is added here.
-const MENDED: [&str; 19] = [
-    "crates/umbrage-bake/src/",
-    "crates/umbrage-cli/",
-    "crates/umbrage-depth/",
-    "crates/umbrage-engines/",
-    "crates/umbrage-figures/src/",
-    "crates/umbrage-gltf/src/",
-    "crates/umbrage-io/src/",
-    "crates/umbrage-oracle/src/",
-    "crates/umbrage-plane/",
-    "crates/umbrage-raster/src/",
-    "crates/umbrage-recipe/",
-    "crates/umbrage-render/src/",
-    "crates/umbrage-report/src/",
-    "crates/umbrage-sample/src/",
-    "crates/umbrage-scene/src/",
-    "crates/umbrage-shadow/",
-    "crates/umbrage-view/",
-    "examples/",
-    "xtask/",
-];
 /// Parts of the names of measures, which `fixtures/figures.csv` holds as keys.
 const NAMES: [&str; 3] =
     ["16 exact rays a pixel: error", "false shadow over the share of the disc", "the bias that D-9 asks for"];
@@ -76,9 +54,6 @@ const WORDS: [(&str, &str); 43] = [
 /// Findings of one source file.
 pub fn words(file: &str, text: &str) -> Vec<String> {
     let mut findings = Vec::new();
-    if !MENDED.iter().any(|folder| file.starts_with(folder)) {
-        return findings;
-    }
     for (index, line) in text.lines().enumerate() {
         // In code the same letters would be names.
         let said = line.find("//").into_iter().chain(line.find('"')).min().map_or("", |at| &line[at..]);
@@ -105,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_are_found_in_comments_and_messages_of_what_is_mended() {
+    fn words_are_found_in_comments_and_messages() {
         let file = "crates/umbrage-plane/src/a.rs";
         let wanted = [format!("{file}:1: \"depth a texel\" should be \"per texel\"")];
         for line in ["/// One depth a texel.", "let x = 1; // one depth a texel", "    \"one depth a texel, or none\""]
@@ -115,7 +90,6 @@ mod tests {
         for line in ["depth a texel", "/// One depth per texel.", "/// In depth a texels' mean"] {
             assert!(words(file, line).is_empty(), "{line}");
         }
-        assert!(words("crates/umbrage-new/src/a.rs", "/// One depth a texel.").is_empty());
         let measure = r#"Measure::info("16 exact rays a pixel: error, mean of all scenes", sixteen, "rms")"#;
         assert!(words(file, measure).is_empty());
     }

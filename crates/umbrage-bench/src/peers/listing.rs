@@ -1,6 +1,6 @@
 //! The listing of Reeves 1987, Figure 4, tap after tap, as lean as plain code is: a slice of depths, and the cheapest generator.
 //!
-//! It is given what it asks for, a position in the map and a depth, and so does without the way into the light's space. The
+//! It is given what it needs, a position in the map and a depth, and so does without the way into the light's space. The
 //! fractions are those of [`as_printed`](umbrage_shadow::as_printed) with the same random numbers, which is as faithful to the
 //! print but asks any map; [`assert_as_printed`] holds it to that.
 

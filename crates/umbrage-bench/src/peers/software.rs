@@ -1,6 +1,6 @@
 //! Depth by `euc`, whose depth buffer holds what is affine in the map: −1/ζ.
 //!
-//! Its colours have no size, so that only depth is written. Vertices are transformed by its vertex shader, which a real map asks for
+//! Its colours have no size, so that only depth is written. Vertices are transformed by its vertex shader, which a real map needs
 //! as well.
 
 use crate::meshes::Mesh;

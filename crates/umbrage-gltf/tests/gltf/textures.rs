@@ -133,7 +133,7 @@ fn an_image_that_cannot_be_read_is_noted_unless_it_cuts_holes() {
         let line = textured(broken, masked(&json!({"index": 0}), 1.0)).refused();
         assert!(line.starts_with("images[0]: ") && !line.contains('\n'), "{line}");
     }
-    // A header that promises 65535 by 65535 texels is asked for no memory.
+    // A header that promises 65535 by 65535 texels gets no memory.
     let mut giant = good;
     giant[16..24].copy_from_slice(&[0, 0, 0xff, 0xff, 0, 0, 0xff, 0xff]);
     let line = textured(&giant, masked(&json!({"index": 0}), 1.0)).refused();

@@ -61,7 +61,7 @@ fn facets(view: &View, fine: u32, first: u32) -> FacetMap {
     FacetMap::from_tiles(*view, Stored::Second, fine, if fine == 1 { 1 } else { 64 / fine }, tiles)
 }
 
-/// Everything that can be asked of a map, as bits.
+/// Everything that a map can answer, as bits.
 fn looked_up(map: &FacetMap) -> Vec<u64> {
     let size = map.view().size().as_ivec2();
     let around = TexelRect::new(IVec2::splat(-2), size + 2);
@@ -288,7 +288,7 @@ fn texts_that_lie() {
     }
     let other = message(&patched(text + "umbrage facets ".len(), b"2"));
     assert_eq!(other, "part facets: comments is umbrage facets 2: does not begin with \\\"umbrage facets 1\\\"");
-    // What the first part says is asked too: the digest of words is over it.
+    // What the first part says counts too: the digest of words is over it.
     let seed = message(&patched(value(bytes, "comments", "string") + "umbrage view ".len(), b"2"));
     assert!(seed.starts_with("comments is no view"), "{seed}");
 }

@@ -188,7 +188,7 @@ fn faults(path: &Path, pages: usize, order: impl IntoIterator<Item = IVec2>) -> 
     handle.faults()
 }
 
-/// The same by the definition: a list of tiles by when they were asked for.
+/// The same by the definition: a list of tiles by when they were read.
 fn textbook_faults(pages: usize, order: impl IntoIterator<Item = IVec2>) -> u64 {
     let (mut kept, mut faults) = (Vec::new(), 0);
     for texel in order {

@@ -361,7 +361,7 @@ fn a_recipe_is_judged_on_a_scene_in_one_call() {
     let thin = plate(0.2, true);
     assert_eq!(raised(&thin, "wang-molnar94"), ["TooThin"]);
     assert_eq!(raised(&plate(4.0, true), "wang-molnar94"), [] as [&str; 0]);
-    assert_eq!(raised(&thin, "reeves87,bias=0"), [] as [&str; 0], "the nearest surface asks for no thickness");
+    assert_eq!(raised(&thin, "reeves87,bias=0"), [] as [&str; 0], "the nearest surface needs no thickness");
     let mut open = sound;
     open.objects[0].solid = false;
     assert_eq!(raised(&open, "woo92"), ["VanishedShadow"]);

@@ -99,7 +99,7 @@ fn truth_agrees_with_integers_on_a_hundred_thousand_rays() {
     assert!(inside > 20_000 && borders > 1_000 && missed > 10_000, "{inside} {borders} {missed}");
 }
 
-/// A scene of half units: boxes on a floor and sheets between them, with the places that are asked about.
+/// A scene of half units: boxes on a floor and sheets between them, with the places that are tested.
 struct Yard {
     faces: Vec<Face>,
     /// On the faces, by weights that halve exactly, and free in space.
@@ -191,7 +191,7 @@ proptest! {
     #[test]
     fn truth_does_not_change_with_what_no_ray_meets(seed in any::<u32>(), directional in any::<bool>(), size in 1.0..1e9f32) {
         let yard = yard(seed, directional);
-        // Below all that is asked about, and the light is above.
+        // Below all that is tested, and the light is above.
         let corner = |x: f32, z: f32| Vec3::new(x * size, -200.0 - size, z * size);
         let below = rectangle([corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)], 1);
         prop_assert_eq!(shadows(&yard, DVec3::ZERO, 1.0, &[]), shadows(&yard, DVec3::ZERO, 1.0, &below));

@@ -71,7 +71,7 @@ fn inside(corners: [IVec2; 3], at: IVec2) -> Option<bool> {
     if sides.contains(&0) { None } else { Some(true) }
 }
 
-/// Corners on the grid of 1/256 texel, narrow triangles between the texels' samples among them: every point of a finer grid is asked.
+/// Corners on the grid of 1/256 texel, narrow triangles between the texels' samples among them: every point of a finer grid is tested.
 #[test]
 fn a_finer_grid_is_covered_where_a_plain_test_says() {
     let size = UVec2::new(40, 36);

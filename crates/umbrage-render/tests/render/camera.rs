@@ -8,7 +8,7 @@ use umbrage_sample::Key;
 use umbrage_scene::{Light, Material, Mesh, Object, Scene, gallery};
 use umbrage_shadow::Shadow;
 
-/// Remembers what it is asked.
+/// Remembers the points that it is given.
 #[derive(Default)]
 struct Asked(Mutex<Vec<SurfacePoint>>);
 

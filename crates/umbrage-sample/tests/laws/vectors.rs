@@ -132,7 +132,7 @@ fn v09_expected_fraction_of_a_shadow_edge() {
     close(f64::from(shadowed) / f64::from(all), 0.5625, 4.0 * 0.000_17);
 }
 
-/// Mean and variance of the share of taps left of `share` of the region's width.
+/// Mean and variance of the fraction of taps left of `share` of the region's width.
 fn edge_variance(pattern: &impl Pattern, share: f64, half: f32) -> (f64, f64) {
     let region = boxed(0.0, 0.0, half, half);
     let edge = ((2.0 * share - 1.0) * f64::from(half)) as f32;
