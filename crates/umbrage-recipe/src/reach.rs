@@ -96,7 +96,7 @@ impl Recipe {
             DepthName::Engine(bias) => bias.nearer(view, receiver, nearer) as f32,
         };
         let drawn = receiver.in_world(view, biased.low).max(receiver.in_world(view, biased.high));
-        // ∞ less ∞ is no bound either.
+        // An infinite bias of either sign has no bound, and neither has their difference.
         let sum = drawn + own;
         if sum.is_nan() { f32::INFINITY } else { sum.max(0.0) }
     }

@@ -21,7 +21,7 @@ pub struct Browser {
 }
 
 impl Browser {
-    /// `None` where there is no chromedriver, or no browser for it.
+    /// `None` if chromedriver or its browser is not installed.
     pub fn new(width: u32, height: u32) -> Option<Self> {
         let mut command = Command::new("chromedriver");
         let mut driver = command.arg("--port=0").stdout(Stdio::piped()).stderr(Stdio::null()).spawn().ok()?;

@@ -42,7 +42,7 @@ impl Judge<'_> {
     /// in the light's maps.
     ///
     /// # Panics
-    /// When there is no such pixel.
+    /// If the index is past the last pixel.
     pub fn bias_passes(&self, pixel: usize, recipe: &Recipe) -> bool {
         let Some(point) = self.point(pixel) else { return false };
         let Some((view, receiver)) = self.received(&point) else { return false };

@@ -47,7 +47,7 @@ impl Judge<'_> {
     /// Why a pixel is not judged, the first reason of several; `None` where it is judged.
     ///
     /// # Panics
-    /// When there is no such pixel.
+    /// If the index is past the last pixel.
     pub fn unjudged(&self, pixel: usize) -> Option<Unjudged> {
         let Seen { position, normal, share, facing, .. } = self.seen;
         if share[pixel] != 1.0 {
