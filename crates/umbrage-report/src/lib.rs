@@ -25,6 +25,7 @@
 //!
 //! This crate opens files in the run's own folder only. It has no features.
 
+mod article;
 pub mod diagram;
 mod folder;
 pub mod letters;

@@ -1,8 +1,9 @@
 //! Makes figures one after another and writes what a reader opens: `index.html`, `report.json`, `timings.json`.
 
+use crate::article::Beside;
 use crate::folder::{self, Origin, Timings};
 use crate::made::{Made, Verdict};
-use crate::page::{self, Beside, Words};
+use crate::page::{self, Words};
 use crate::record::{FigureRecord, Heading, Report};
 use crate::text::figures;
 use anyhow::Context as _;

@@ -1,8 +1,9 @@
 //! A page of figures that somebody else has made.
 
+use crate::article::Beside;
 use crate::folder::{self, Origin};
 use crate::made::Made;
-use crate::page::{self, Beside, Words};
+use crate::page::{self, Words};
 use crate::record::{FigureRecord, Heading, Report};
 use crate::text::file_stem;
 use std::path::Path;
