@@ -103,6 +103,12 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         self.probe
     }
 
+    /// The instructions that the query is compiled for.
+    #[inline(always)]
+    pub(crate) fn simd(&self) -> S {
+        self.simd
+    }
+
     /// The map itself, for what neither a region nor a texel provides.
     #[inline(always)]
     pub(crate) fn map(&self) -> &'a M {

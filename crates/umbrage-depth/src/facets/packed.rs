@@ -8,6 +8,24 @@ pub(super) struct Packed {
     words: Box<[u32]>,
 }
 
+/// [`Packed`] numbers, with everything at hand that reading one of them takes.
+#[derive(Clone, Copy)]
+pub(super) struct Numbers<'a> {
+    words: &'a [u32],
+    /// log₂ of the numbers in a word, and of a number's width; all bits of a number.
+    shift: u32,
+    log: u32,
+    mask: u32,
+}
+
+impl Numbers<'_> {
+    #[inline(always)]
+    pub fn get(self, index: usize) -> u32 {
+        let place = (index as u32 & ((1 << self.shift) - 1)) << self.log;
+        self.words[index >> self.shift].wrapping_shr(place) & self.mask
+    }
+}
+
 impl Packed {
     /// The narrowest that holds all numbers, which are below 2¹⁶.
     pub fn new(numbers: &[u32]) -> Self {
@@ -28,11 +46,14 @@ impl Packed {
 
     #[inline(always)]
     pub fn get(&self, index: usize) -> u32 {
-        let Some(log) = self.log else { return 0 };
-        let shift = 5 - log;
-        let word = self.words[index >> shift];
-        let place = (index as u32 & ((1 << shift) - 1)) << log;
-        word >> place & (u32::MAX >> (32 - (1 << log)))
+        self.numbers().get(index)
+    }
+
+    /// What reads many of them.
+    #[inline(always)]
+    pub fn numbers(&self) -> Numbers<'_> {
+        let Some(log) = self.log else { return Numbers { words: &[0], shift: 31, log: 0, mask: 0 } };
+        Numbers { words: &self.words, shift: 5 - log, log, mask: u32::MAX >> (32 - (1 << log)) }
     }
 
     /// Whether all numbers are 0 and nothing is kept.

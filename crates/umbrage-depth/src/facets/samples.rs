@@ -46,10 +46,10 @@ impl FacetSource for FacetMap {
         let texel = self.texel_of(at);
         let found = self.tile(texel);
         if let Some((tile, middle, within)) = found
-            && let Some(block) = tile.block(within)
+            && let Some(block) = tile.block(middle, within)
         {
             let place = at - texel * self.fine as i32;
-            return self.part(at, block.plane(middle, (place.y * self.fine as i32 + place.x) as usize, self.fine));
+            return self.part(at, block.plane((place.y * self.fine as i32 + place.x) as usize, self.fine));
         }
         self.whole(texel, found)
     }
@@ -74,8 +74,8 @@ impl FacetSource for FacetMap {
                     None
                 };
                 let (left, right) = (rect.min.x.max(x * fine), rect.max.x.min((x + 1) * fine));
-                let block = found.and_then(|(tile, middle, within)| Some((tile.block(within)?, middle)));
-                let Some((block, middle)) = block else {
+                let block = found.and_then(|(tile, middle, within)| tile.block(middle, within));
+                let Some(block) = block else {
                     let part = TexelRect { min: IVec2::new(left, top), max: IVec2::new(right, bottom) };
                     if !each(part, &self.whole(texel, found)) {
                         return;
@@ -86,7 +86,7 @@ impl FacetSource for FacetMap {
                     let first = ((row - y * fine) * fine - x * fine) as usize;
                     for column in left..right {
                         let at = IVec2::new(column, row);
-                        let plane = block.plane(middle, first.wrapping_add(column as usize), self.fine);
+                        let plane = block.plane(first.wrapping_add(column as usize), self.fine);
                         if !each(TexelRect { min: at, max: at + 1 }, &self.part(at, plane)) {
                             return;
                         }
@@ -111,8 +111,8 @@ impl FacetSource for FacetMap {
     #[inline(always)]
     fn link(&self, at: IVec2, down: bool) -> Option<f64> {
         let texel = self.texel_of(at);
-        let (tile, _, within) = self.tile(texel)?;
-        let slots = tile.block(within)?.link(at - texel * self.fine as i32, self.fine, down)?;
+        let (tile, middle, within) = self.tile(texel)?;
+        let slots = tile.block(middle, within)?.link(at - texel * self.fine as i32, self.fine, down)?;
         Some(f64::from(slots) / f64::from(self.slots))
     }
 }

@@ -1,4 +1,4 @@
-use super::packed::Packed;
+use super::packed::{Numbers, Packed};
 use crate::TILE;
 use glam::{DVec2, IVec2, UVec2};
 use half::f16;
@@ -155,7 +155,7 @@ impl FacetTile {
     pub(super) fn plane(&self, middle: DVec2, at: UVec2) -> Stored {
         let index = (at.y * TILE + at.x) as usize;
         match &self.cells {
-            Cells::Table { planes, texels } => Stored::Plane(planes.get(texels.get(index), middle)),
+            Cells::Table { planes, texels } => Stored::Plane(planes.about(middle).get(texels.get(index))),
             Cells::Depths(depths) => Stored::Depth(depths[index]),
             Cells::Own { base, keys, slopes } => {
                 let [dx, dy] = slopes[index].map(f64::from);
@@ -169,9 +169,9 @@ impl FacetTile {
         }
     }
 
-    /// A texel's block, where it is refined.
+    /// A texel's block, where it is refined; `middle` is the tile's middle, texels.
     #[inline(always)]
-    pub(super) fn block(&self, at: UVec2) -> Option<Block<'_>> {
+    pub(super) fn block(&self, middle: DVec2, at: UVec2) -> Option<Block<'_>> {
         let blocks = self.blocks.as_deref()?;
         let row = blocks.refined[at.y as usize];
         if row >> at.x & 1 == 0 {
@@ -179,7 +179,8 @@ impl FacetTile {
         }
         let Cells::Table { planes, .. } = &self.cells else { return None };
         let before = (row & ((1 << at.x) - 1)).count_ones() as usize;
-        Some(Block { planes, blocks, index: usize::from(blocks.before[at.y as usize]) + before })
+        let index = usize::from(blocks.before[at.y as usize]) + before;
+        Some(Block { planes: planes.about(middle), samples: blocks.samples.numbers(), blocks, index })
     }
 
     /// Whether all texels of a rectangle, its last among them, have one plane of the table and none is refined.
@@ -237,17 +238,18 @@ pub(super) fn range(depths: impl Iterator<Item = f32>) -> DepthRange {
 
 /// The samples and links of a refined texel.
 pub(super) struct Block<'a> {
-    planes: &'a Planes,
+    planes: PlanesAbout<'a>,
+    samples: Numbers<'a>,
     blocks: &'a Blocks,
     /// Its place among the tile's.
     index: usize,
 }
 
 impl Block<'_> {
-    /// The plane of a sample of the block, counted row by row, in a tile whose middle, texels, is `middle`.
+    /// The plane of a sample of the block, counted row by row.
     #[inline(always)]
-    pub fn plane(&self, middle: DVec2, sample: usize, fine: u32) -> Affine {
-        self.planes.get(self.blocks.samples.get(self.index * (fine * fine) as usize + sample), middle)
+    pub fn plane(&self, sample: usize, fine: u32) -> Affine {
+        self.planes.get(self.samples.get(self.index * (fine * fine) as usize + sample))
     }
 
     /// The slots that see their sample's surface, of the link from a place of the block to the right or downward; `None` where it is not kept.
@@ -272,12 +274,29 @@ pub(super) enum Stored {
     Depth(f32),
 }
 
+/// [`Planes`] of a tile whose middle is known, with everything at hand that reading one of them takes.
+#[derive(Clone, Copy)]
+enum PlanesAbout<'a> {
+    Exact(&'a [Affine]),
+    Near { base: f64, planes: &'a [[f32; 3]], middle: DVec2 },
+}
+
 impl Planes {
     #[inline(always)]
-    fn get(&self, index: u32, middle: DVec2) -> Affine {
+    fn about(&self, middle: DVec2) -> PlanesAbout<'_> {
+        match self {
+            Self::Exact(planes) => PlanesAbout::Exact(planes),
+            Self::Near { base, planes } => PlanesAbout::Near { base: *base, planes, middle },
+        }
+    }
+}
+
+impl PlanesAbout<'_> {
+    #[inline(always)]
+    fn get(self, index: u32) -> Affine {
         match self {
             Self::Exact(planes) => planes[index as usize],
-            Self::Near { base, planes } => {
+            Self::Near { base, planes, middle } => {
                 let [key, dx, dy] = planes[index as usize].map(f64::from);
                 if key == f64::INFINITY {
                     return NOTHING;

@@ -95,7 +95,7 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
         let along_x = !(a == b && c == d && a != c);
         let [x, y] = self.axes;
         let (along, beside) = if along_x { (x, y) } else { (y, x) };
-        let step = 1.0 / f64::from(self.across);
+        let (step, whole) = (1.0 / f64::from(self.across), self.cells.is_whole());
         let (mut sum, mut all) = (0.0, 0.0);
         for line in 0..self.across {
             let first = self.middle + beside * (f64::from(2 * line + 1) * step - 1.0) - along;
@@ -103,7 +103,7 @@ impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
             let mut before = None;
             for cell in 0..self.across {
                 let (column, row) = if along_x { (cell, line) } else { (line, cell) };
-                let share = self.cells.share(column, row, self.across);
+                let share = if whole { 1.0 } else { self.cells.share(column, row, self.across) };
                 if share == 0.0 {
                     before = None;
                     continue;

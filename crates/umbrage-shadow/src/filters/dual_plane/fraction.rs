@@ -1,10 +1,12 @@
 //! The fraction of a region that is in shadow, by the cheapest test that settles it.
 
 use super::asked::{Asked, FAR};
+use super::edges::Edges;
 use super::grid::Grid;
-use super::voters::{LANES, Said, Samples, Voters};
-use glam::DVec2;
-use umbrage_depth::FacetSource;
+use super::voters::{LANES, Said, Voters};
+use fearless_simd::Simd;
+use glam::{DVec2, IVec2};
+use umbrage_depth::{FacetSample, FacetSource};
 use umbrage_plane::TexelRect;
 
 /// Samples along each side of the region that are held; larger regions read the map for each place.
@@ -16,7 +18,7 @@ const MOST_AGREED: f64 = 16.0;
 impl<F: FacetSource + ?Sized> Asked<'_, F> {
     /// The fraction in shadow, and how many samples were read.
     #[inline(always)]
-    pub fn fraction(&self) -> (f32, u32) {
+    pub fn fraction<S: Simd>(&self, simd: S) -> (f32, u32) {
         let (centre, axes) = self.compared.part;
         let reach = axes[0].abs() + axes[1].abs();
         let fine = f64::from(self.map.fine());
@@ -27,33 +29,33 @@ impl<F: FacetSource + ?Sized> Asked<'_, F> {
         }
         let rect = TexelRect::new(low.as_ivec2(), high.as_ivec2());
         let inside = self.view.holds(centre.as_vec2(), reach.as_vec2());
-        if inside && let Some(dark) = self.of_one_plane(rect, reach) {
+        if inside && let Some(dark) = self.of_one_plane(simd, rect, reach) {
             return (f32::from(u8::from(dark)), 1);
         }
         let wide = (high - low).max_element();
         let looked = rect.area().min(4 * (self.across * self.across) as usize) as u32;
         if wide <= AT_HAND as f64 {
             let mut grid = Grid::<F, { AT_HAND * AT_HAND }, { AT_HAND * AT_HAND / LANES }>::empty(self, rect);
-            let agreed = grid.fill();
+            let agreed = grid.fill(simd);
             if inside && let Some(dark) = agreed {
-                return (f32::from(u8::from(dark)), grid.parts.len() as u32);
+                return (f32::from(u8::from(dark)), grid.samples);
             }
-            return (grid.fraction(inside), looked);
+            return (grid.fraction(simd, inside), looked);
         }
         if inside && wide <= MOST_AGREED * fine {
-            let (agreed, looked) = self.agreed(rect);
+            let (agreed, looked) = self.agreed(simd, rect);
             if let Some(dark) = agreed {
                 return (f32::from(u8::from(dark)), looked);
             }
         }
-        (self.one_by_one(inside), looked)
+        (self.one_by_one(simd, inside), looked)
     }
 
     /// The common vote where all samples of a rectangle see one facet, which judges each of them and all places of the region alike.
     #[inline(always)]
-    fn of_one_plane(&self, rect: TexelRect, reach: DVec2) -> Option<bool> {
+    fn of_one_plane<S: Simd>(&self, simd: S, rect: TexelRect, reach: DVec2) -> Option<bool> {
         let sample = self.map.one_facet(rect)?;
-        let behind = Voters::of(&self.compared, &Samples::one(&sample)).behind(0);
+        let behind = Voters::of(simd, &self.compared, &[sample; LANES], 1).behind(0);
         // Wherever the samples of these places were taken, and the region.
         let side = 1.0 / f64::from(self.map.fine());
         let low = (rect.min.as_dvec2() * side - 1.0).min(self.compared.part.0 - reach);
@@ -67,28 +69,61 @@ impl<F: FacetSource + ?Sized> Asked<'_, F> {
 
     /// The common vote of all samples of a rectangle for all places of the region, where they agree, and how many were read.
     #[inline(never)]
-    fn agreed(&self, rect: TexelRect) -> (Option<bool>, u32) {
-        let (mut samples, mut said, mut looked) = (Samples::NONE, Said::default(), 0);
+    fn agreed<S: Simd>(&self, simd: S, rect: TexelRect) -> (Option<bool>, u32) {
+        let mut samples = [FacetSample::nothing(DVec2::ZERO); LANES];
+        let (mut count, mut said, mut looked) = (0, Said::default(), 0);
+        let votes = |samples: &[_; LANES], count| {
+            simd.vectorize(
+                #[inline(always)]
+                || Voters::of(simd, &self.compared, samples, count),
+            )
+        };
         self.map.each_sample(rect, &mut |_, sample| {
-            samples.push(sample);
+            samples[count] = *sample;
+            count += 1;
             looked += 1;
-            if samples.count == LANES {
-                said.add(&Voters::of(&self.compared, &samples));
-                samples.count = 0;
+            if count == LANES {
+                said.add(&votes(&samples, LANES));
+                count = 0;
             }
             said.can_agree()
         });
-        said.add(&Voters::of(&self.compared, &samples));
+        said.add(&votes(&samples, count));
         (said.agreed(), looked)
     }
 
     /// A large region: the map is read anew for each place.
     #[inline(never)]
-    fn one_by_one(&self, inside: bool) -> f32 {
+    fn one_by_one<S: Simd>(&self, simd: S, inside: bool) -> f32 {
         self.share(inside, |at| {
-            let corner = (at * f64::from(self.map.fine()) - 0.5).floor().as_ivec2();
-            let mut grid = Grid::<F, 4, 1>::empty(self, TexelRect::new(corner, corner + 2));
-            grid.filled().dark(at)
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    let corner = (at * f64::from(self.map.fine()) - 0.5).floor().as_ivec2();
+                    let mut samples = [FacetSample::nothing(DVec2::ZERO); LANES];
+                    for (k, sample) in samples.iter_mut().enumerate() {
+                        *sample = self.map.sample(corner + IVec2::new(k as i32 & 1, k as i32 >> 1));
+                    }
+                    match Voters::of(simd, &self.compared, &samples, LANES).on(simd, at) {
+                        0 => false,
+                        0b1111 => true,
+                        _ => self.edge(simd, corner, at),
+                    }
+                },
+            )
         })
+    }
+
+    /// Whether a place is dark whose samples disagree.
+    #[inline(never)]
+    fn edge<S: Simd>(&self, simd: S, corner: IVec2, at: DVec2) -> bool {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let mut grid = Grid::<F, 4, 1>::empty(self, TexelRect::new(corner, corner + 2));
+                grid.fill(simd);
+                Edges::of(&grid).dark(at)
+            },
+        )
     }
 }

@@ -1,6 +1,7 @@
 //! Two planes instead of a bias: the caster's own and the receiver's, compared at both ends.
 
 mod asked;
+mod edges;
 mod explained;
 mod fraction;
 mod grid;
@@ -30,9 +31,9 @@ impl Filter for DualPlane {
             Some(Facets::Map(map)) => {
                 let asked = Asked::new(self, map, query);
                 if P::EXPLAINS {
-                    explain(&asked, query.probe());
+                    explain(query.simd(), &asked, query.probe());
                 }
-                asked.fraction()
+                asked.fraction(query.simd())
             }
             Some(Facets::Several(maps)) => self.over_several(maps, query),
             None => {
@@ -57,8 +58,8 @@ impl DualPlane {
     ) -> (f32, u32) {
         let asked = Asked::new(self, maps, query);
         if P::EXPLAINS {
-            explain(&asked, query.probe());
+            explain(query.simd(), &asked, query.probe());
         }
-        asked.fraction()
+        asked.fraction(query.simd())
     }
 }

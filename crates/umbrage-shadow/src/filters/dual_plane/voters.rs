@@ -1,7 +1,7 @@
 //! The votes of samples on a receiver, several at a time.
 
-#![expect(clippy::needless_range_loop, reason = "one index names a lane in several arrays")]
-
+use fearless_simd::f64x4;
+use fearless_simd::prelude::*;
 use glam::DVec2;
 use umbrage_depth::FacetSample;
 use umbrage_plane::Affine;
@@ -9,8 +9,8 @@ use umbrage_plane::Affine;
 /// The number of samples that are processed together.
 pub(super) const LANES: usize = 4;
 
-/// The vote of a sample that does not judge all places of the region alike.
-pub(super) const OPEN: u8 = 1 << 7;
+/// The vote of a sample that does not judge all places of the region alike. Those of a cell are put in one byte, each a bit further up.
+pub(super) const OPEN: u8 = 1 << 4;
 
 /// One number of each sample.
 type Lanes = [f64; LANES];
@@ -31,42 +31,6 @@ pub(super) struct Compared {
     pub rounding: f64,
 }
 
-/// One to [`LANES`] samples, number by number: arrays, which a compiler turns into vector instructions.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Samples {
-    plane: [Lanes; 3],
-    at: [Lanes; 2],
-    side: Lanes,
-    /// The number of samples.
-    pub count: usize,
-}
-
-impl Samples {
-    /// No samples yet.
-    pub const NONE: Self = Self { plane: [[0.0; LANES]; 3], at: [[0.0; LANES]; 2], side: [0.0; LANES], count: 0 };
-
-    /// Adds one more sample.
-    ///
-    /// # Panics
-    /// When there are already [`LANES`] samples.
-    #[inline(always)]
-    pub fn push(&mut self, sample: &FacetSample) {
-        let lane = self.count;
-        (self.plane[0][lane], self.plane[1][lane], self.plane[2][lane]) =
-            (sample.plane.c, sample.plane.dx, sample.plane.dy);
-        (self.at[0][lane], self.at[1][lane], self.side[lane]) = (sample.at.x, sample.at.y, sample.side);
-        self.count = lane + 1;
-    }
-
-    /// One sample alone.
-    #[inline(always)]
-    pub fn one(sample: &FacetSample) -> Self {
-        let mut samples = Self::NONE;
-        samples.push(sample);
-        samples
-    }
-}
-
 /// The votes of samples before a place is given.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Voters {
@@ -84,47 +48,78 @@ pub(super) struct Voters {
     all: u8,
 }
 
-/// A bit for each lane.
+/// Each list of numbers as a vector.
 #[inline(always)]
-fn bits(lanes: [bool; LANES]) -> u8 {
-    let mut bits = 0;
-    for i in 0..LANES {
-        bits |= u8::from(lanes[i]) << i;
+fn lanes<S: Simd, const N: usize>(simd: S, numbers: [Lanes; N]) -> [f64x4<S>; N] {
+    let mut lanes = [f64x4::splat(simd, 0.0); N];
+    for i in 0..N {
+        lanes[i] = f64x4::from_slice(simd, &numbers[i]);
     }
-    bits
+    lanes
+}
+
+/// Each number in all lanes.
+#[inline(always)]
+fn splat<S: Simd, const N: usize>(simd: S, numbers: [f64; N]) -> [f64x4<S>; N] {
+    let mut lanes = [f64x4::splat(simd, 0.0); N];
+    for i in 0..N {
+        lanes[i] = f64x4::splat(simd, numbers[i]);
+    }
+    lanes
+}
+
+/// [`Affine::at`], its terms in the same order.
+#[inline(always)]
+fn at<S: Simd>([c, dx, dy]: [f64x4<S>; 3], [x, y]: [f64x4<S>; 2]) -> f64x4<S> {
+    (c + dy * y) + dx * x
+}
+
+/// How much planes change along an axis.
+#[inline(always)]
+fn along<S: Simd>([_, dx, dy]: [f64x4<S>; 3], [x, y]: [f64x4<S>; 2]) -> f64x4<S> {
+    (dx * x + dy * y).abs()
 }
 
 impl Voters {
-    /// Each of some samples as if it were alone. An empty sample, a plane infinitely far away, calls everything lit.
+    /// Each of the first `count` samples as if it were alone. An empty sample, a plane infinitely far away, calls everything lit.
     #[inline(always)]
-    #[expect(
-        clippy::needless_bitwise_bool,
-        reason = "a lane that skipped a comparison would keep the loop from being vectorised"
-    )]
-    pub fn of(compared: &Compared, samples: &Samples) -> Self {
-        let ([mut c, mut dx, mut dy], [x, y], side) = (samples.plane, samples.at, samples.side);
-        let (mut there, mut passed) = ([0.0; LANES], [0.0; LANES]);
-        let (mut dark, mut lit) = ([false; LANES], [false; LANES]);
+    pub fn of<S: Simd>(simd: S, compared: &Compared, samples: &[FacetSample; LANES], count: usize) -> Self {
+        let [mut c, mut dx, mut dy, mut x, mut y, mut side] = [[0.0; LANES]; 6];
         for i in 0..LANES {
-            let gentle = compared.steep.min(dx[i].abs() + dy[i].abs());
-            // Planes of refined maps are three floats about the middle of a tile.
-            let rounding = compared.rounding + 1e-6 * gentle.min(compared.width);
-            passed[i] = rounding + (compared.width + compared.slope * gentle) * side[i].max(compared.least);
-            (c[i], dx[i], dy[i]) =
-                (compared.plane.c - c[i] - passed[i], compared.plane.dx - dx[i], compared.plane.dy - dy[i]);
-            there[i] = Affine { c: c[i], dx: dx[i], dy: dy[i] }.at(DVec2::new(x[i], y[i]));
+            let FacetSample { plane, at, side: own } = &samples[i];
+            (c[i], dx[i], dy[i], x[i], y[i], side[i]) = (plane.c, plane.dx, plane.dy, at.x, at.y, *own);
         }
-        let (centre, axes) = compared.part;
-        for i in 0..LANES {
-            let middle = Affine { c: c[i], dx: dx[i], dy: dy[i] }.at(centre);
-            let along = |axis: DVec2| (dx[i] * axis.x + dy[i] * axis.y).abs();
-            // A little more than the region, so that no rounding decides.
-            let spread = (along(axes[0]) + along(axes[1])) * (1.0 + 1e-9);
-            dark[i] = (there[i] > 0.0) & (middle - spread > 0.0);
-            lit[i] = (there[i] <= 0.0) | (middle + spread <= 0.0);
-        }
-        let all = (1 << samples.count) - 1;
-        Self { behind: [c, dx, dy], there, passed, dark: bits(dark) & all, lit: bits(lit) & all, all }
+        let [c, dx, dy, x, y, side] = lanes(simd, [c, dx, dy, x, y, side]);
+        let [steep, width, slope, least, rounding, slack, zero, more] = splat(
+            simd,
+            // Planes of refined maps are three floats about the middle of a tile. A little more than the region, so that no rounding decides.
+            [compared.steep, compared.width, compared.slope, compared.least, compared.rounding, 1e-6, 0.0, 1.0 + 1e-9],
+        );
+        let gentle = steep.min_precise(dx.abs() + dy.abs());
+        let rounding = rounding + slack * gentle.min_precise(width);
+        let passed = rounding + (width + slope * gentle) * side.max_precise(least);
+        let plane = splat(simd, [compared.plane.c, compared.plane.dx, compared.plane.dy]);
+        let behind = [plane[0] - c - passed, plane[1] - dx, plane[2] - dy];
+        let there = at(behind, [x, y]);
+        let (centre, [u, v]) = compared.part;
+        let middle = at(behind, splat(simd, centre.to_array()));
+        let spread = (along(behind, splat(simd, u.to_array())) + along(behind, splat(simd, v.to_array()))) * more;
+        let dark = there.simd_gt(zero) & (middle - spread).simd_gt(zero);
+        let lit = there.simd_le(zero) | (middle + spread).simd_le(zero);
+        let all = (1 << count.min(LANES)) - 1;
+        let [dark, lit] = [dark.to_bitmask() as u8 & all, lit.to_bitmask() as u8 & all];
+        let [c, dx, dy] = behind;
+        Self { behind: [c.into(), dx.into(), dy.into()], there: there.into(), passed: passed.into(), dark, lit, all }
+    }
+
+    /// The votes of all samples on a place, a bit for each.
+    #[inline(always)]
+    pub fn on<S: Simd>(&self, simd: S, place: DVec2) -> u8 {
+        let [there, c, dx, dy] = lanes(simd, [self.there, self.behind[0], self.behind[1], self.behind[2]]);
+        let zero = f64x4::splat(simd, 0.0);
+        let dark = there.simd_gt(zero) & at([c, dx, dy], splat(simd, place.to_array())).simd_gt(zero);
+        // What is settled for all of the region is settled with a little more room.
+        (dark.to_bitmask() as u8 & !self.lit | self.dark) & self.all
     }
 
     /// A sample's vote for all places of the region: 0 lit, 1 dark, or [`OPEN`].
