@@ -33,7 +33,8 @@ pub fn linear_to_srgb8(linear: f32) -> u8 {
 /// When the number of pixels does not fit the size, or the size has no pixels.
 pub fn encode_png(size: UVec2, linear_rgb: &[Vec3]) -> Result<Vec<u8>, Fault> {
     check_length(size, linear_rgb.len())?;
-    let codes: Vec<u8> = linear_rgb.iter().flat_map(|pixel| pixel.to_array().map(linear_to_srgb8)).collect();
+    let mut code = codes();
+    let codes: Vec<u8> = linear_rgb.iter().flat_map(|pixel| pixel.to_array().map(&mut code)).collect();
     encode(size, &codes, ColorType::Rgb)
 }
 
@@ -43,8 +44,20 @@ pub fn encode_png(size: UVec2, linear_rgb: &[Vec3]) -> Result<Vec<u8>, Fault> {
 /// As [`encode_png`].
 pub fn encode_png_grey(size: UVec2, linear_grey: &[f32]) -> Result<Vec<u8>, Fault> {
     check_length(size, linear_grey.len())?;
-    let codes: Vec<u8> = linear_grey.iter().map(|grey| linear_to_srgb8(*grey)).collect();
+    let mut code = codes();
+    let codes: Vec<u8> = linear_grey.iter().map(|grey| code(*grey)).collect();
     encode(size, &codes, ColorType::Grayscale)
+}
+
+/// [`linear_to_srgb8`] of one value after another, many of which are like the one before.
+fn codes() -> impl FnMut(f32) -> u8 {
+    let mut last = (0.0, linear_to_srgb8(0.0));
+    move |linear| {
+        if linear != last.0 {
+            last = (linear, linear_to_srgb8(linear));
+        }
+        last.1
+    }
 }
 
 /// A PNG file's bytes of a quantity: 16 bits of grey without a curve, 0 is 0 and 1 is 65535; below 0 and NaN are 0, above 1 is 65535. A

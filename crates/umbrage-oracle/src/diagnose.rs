@@ -1,8 +1,10 @@
 //! What is wrong with a scene before a map of it is made: values to act on, each with its line for people.
 
 use crate::predict::{float_step, severe_perspective};
+use crate::ray::Ray;
 use crate::thin::{folded, stacked, too_thin};
-use crate::{Body, Diagnostic, Face, Geometry, Plan};
+use crate::triangle::Triangle;
+use crate::{Diagnostic, Plan};
 use glam::DVec3;
 use umbrage_depth::Stored;
 use umbrage_plane::{Kind, View};
@@ -75,12 +77,19 @@ fn enclosed(scene: &Scene, object: &Object, light: &Light) -> Option<Diagnostic>
         return None;
     }
     let mesh = object.shape.mesh_for(view);
-    let faces = (0..mesh.triangles.len()).map(|triangle| Face { corners: mesh.corners(triangle), object: 0 });
-    let body = Geometry::from_faces(faces.collect(), vec![Body::default()]);
     let eye = view.light().truncate();
     // Off every axis, so that no ray runs along an edge of a box; three, so that one that meets an edge is outvoted.
     let ways = [DVec3::new(0.31, 0.59, 0.74), DVec3::new(-0.83, 0.17, 0.53), DVec3::new(0.23, -0.71, -0.67)];
-    let odd = ways.iter().filter(|way| body.hits(eye, **way).len() % 2 == 1).count();
+    let rays = ways.map(|way| Ray::new(eye, way.normalize()));
+    let mut crossed = [0; 3];
+    // So few rays are not worth a tree.
+    for corners in (0..mesh.triangles.len()).map(|triangle| mesh.corners(triangle)) {
+        let face = corners.iter().all(|at| at.is_finite()).then(|| Triangle::new(corners));
+        for (crossed, ray) in crossed.iter_mut().zip(&rays) {
+            *crossed += u32::from(face.is_some_and(|face| ray.meets(&face).is_some()));
+        }
+    }
+    let odd = crossed.iter().filter(|crossed| *crossed % 2 == 1).count();
     if odd < 2 {
         return None;
     }

@@ -1,4 +1,4 @@
-use crate::ray::Ray;
+use crate::ray::{Ray, Shaft};
 use crate::triangle::Triangle;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use obvhs::BvhBuildParams;
@@ -86,6 +86,27 @@ impl Place {
     /// is then on the side of it that the query is about.
     pub(crate) fn lifted(self, normal: DVec3) -> Self {
         Self { at: self.at + normal * self.rounding, ..self }
+    }
+}
+
+/// A ray that begins, and perhaps ends, where faces may hold it.
+pub(crate) struct Shot {
+    pub ray: Ray,
+    pub from: Place,
+    /// Where it ends, if it ends.
+    pub end: Option<Place>,
+    /// How far away that is, world units: what is met there does not count.
+    pub reach: f64,
+    /// The object that it begins on, where it is known.
+    pub object: Option<u32>,
+}
+
+impl Shot {
+    /// `way` is any vector along it, and the whole of it when it ends. Nothing is met along none.
+    pub(crate) fn new(from: Place, way: DVec3, end: Option<Place>) -> Self {
+        let reach = if end.is_some() { way.length() } else { f64::INFINITY };
+        let (direction, reach) = way.try_normalize().map_or((DVec3::X, 0.0), |direction| (direction, reach));
+        Self { ray: Ray::new(from.at, direction), from, end, reach, object: None }
     }
 }
 
@@ -189,13 +210,39 @@ impl Geometry {
     /// Of the facets within that reach its own is the one with its normal, and the nearest of several such. Where its object has
     /// none there, a point of f32 numbers is taken to lie on any facet with its normal: not everybody names objects.
     pub(crate) fn settled(&self, point: &SurfacePoint) -> Place {
-        let place = self.place(point.position);
-        let Some(root) = self.tree.nodes.first() else { return place };
-        let mut facets = Vec::new();
-        self.facets_about(root, place.at, Some(point.object), &mut facets);
+        self.all_settled(std::iter::once(point)).next().unwrap_or_else(|| self.place(point.position))
+    }
+
+    /// [`Geometry::settled`] of points that lie near each other, in their order.
+    pub(crate) fn all_settled<'p>(
+        &self,
+        points: impl Iterator<Item = &'p SurfacePoint> + Clone,
+    ) -> impl Iterator<Item = Place> {
+        // Where there are more about all points, each had better look for its own.
+        const MOST: usize = 32;
+        let (none, all) = (DVec3::splat(f64::NEG_INFINITY), DVec3::splat(f64::INFINITY));
+        let places = points.clone().map(|point| point.position - self.origin).filter(|at| at.is_finite());
+        let (low, high) = places.fold((all, none), |(low, high), at| (low.min(at), high.max(at)));
+        let (mut leaves, mut facets) = (Vec::new(), Vec::new());
+        self.leaves_about(0, low, high, MOST, &mut leaves);
+        let apart = leaves.len() > MOST;
+        points.map(move |point| {
+            let place = self.place(point.position);
+            if apart {
+                leaves.clear();
+                self.leaves_about(0, place.at, place.at, usize::MAX, &mut leaves);
+            }
+            self.settled_among(&leaves, point, place, &mut facets)
+        })
+    }
+
+    /// [`Geometry::settled`], given the point's place, all leaves that may have facets near it, and room for the facets.
+    fn settled_among(&self, leaves: &[u32], point: &SurfacePoint, place: Place, facets: &mut Vec<Near>) -> Place {
+        facets.clear();
+        self.facets_about(leaves, place.at, Some(point.object), facets);
         let single = |at: DVec3| at.as_vec3().as_dvec3() == at;
         if facets.is_empty() && (single(point.position) || single(place.at)) {
-            self.facets_about(root, place.at, None, &mut facets);
+            self.facets_about(leaves, place.at, None, facets);
             let normal = point.normal.as_dvec3();
             facets.retain(|facet| self.triangles[facet.face as usize].normal.cross(normal).length() < 1e-3);
         }
@@ -214,27 +261,51 @@ impl Geometry {
         self.origin + self.settled(point).at
     }
 
-    /// The facets of an object, or of any, that are near enough to a place for [`Geometry::settled`].
-    fn facets_about(&self, node: &Bvh2Node, place: DVec3, object: Option<u32>, found: &mut Vec<Near>) {
+    /// Whether a box is near enough to the places between two for something in it to be so for [`Geometry::settled`]. Its arithmetic is monotonous, also where
+    /// it rounds: what is false for a box is false for all boxes in it and for all places between.
+    fn is_about(node: &Bvh2Node, low: DVec3, high: DVec3) -> bool {
+        let about = low.abs().max(high.abs()).max_element();
+        let (first, last) = (node.aabb().min.as_dvec3(), node.aabb().max.as_dvec3());
+        (first - high).max(low - last).max_element() <= ROUNDED * (about + (last - first).max_element())
+    }
+
+    /// The leaves at and below a node that are near enough to places between two; when they are more than `most`, some of them, but more than `most`.
+    fn leaves_about(&self, index: u32, low: DVec3, high: DVec3, most: usize, found: &mut Vec<u32>) {
+        let Some(node) = self.tree.nodes.get(index as usize) else { return };
+        if found.len() > most || !Self::is_about(node, low, high) {
+            return;
+        }
+        if node.is_leaf() {
+            found.push(index);
+        } else {
+            self.leaves_about(node.first_index, low, high, most, found);
+            self.leaves_about(node.first_index + 1, low, high, most, found);
+        }
+    }
+
+    /// The facets of an object, or of any, in some leaves that are near enough to a place for [`Geometry::settled`].
+    fn facets_about(&self, leaves: &[u32], place: DVec3, object: Option<u32>, found: &mut Vec<Near>) {
         let about = place.abs().max_element();
-        let (low, high) = (node.aabb().min.as_dvec3(), node.aabb().max.as_dvec3());
-        if (low - place).max(place - high).max_element() > ROUNDED * (about + (high - low).max_element()) {
-            return;
-        }
-        let first = node.first_index as usize;
-        if !node.is_leaf() {
-            for child in [first, first + 1] {
-                self.facets_about(&self.tree.nodes[child], place, object, found);
+        for leaf in leaves.iter().map(|&leaf| &self.tree.nodes[leaf as usize]) {
+            if !Self::is_about(leaf, place, place) {
+                continue;
             }
-            return;
-        }
-        for &face in &self.tree.primitive_indices[first..first + node.prim_count as usize] {
-            let triangle = &self.triangles[face as usize];
-            let asked = object.is_none_or(|object| self.faces[face as usize].object == object);
-            if asked && triangle.normal != DVec3::ZERO {
+            let first = leaf.first_index as usize;
+            for &face in &self.tree.primitive_indices[first..first + leaf.prim_count as usize] {
+                let triangle = &self.triangles[face as usize];
+                let asked = object.is_none_or(|object| self.faces[face as usize].object == object);
+                if !asked || triangle.normal == DVec3::ZERO {
+                    continue;
+                }
+                let (low, high) = triangle.bounds();
+                let reach = ROUNDED * (about + (high - low).max_element());
+                // What is farther off its box, by more than anything is rounded by, is farther off the triangle.
+                if (low - place).max(place - high).max_element() > reach * (1.0 + 1e-6) {
+                    continue;
+                }
                 let at = triangle.nearest(place);
                 let distance = at.distance(place);
-                if distance <= ROUNDED * (about + triangle.size()) {
+                if distance <= reach {
                     found.push(Near { face, at, distance });
                 }
             }
@@ -250,46 +321,52 @@ impl Geometry {
     /// True when a surface lies between `from` and `to`. Faces that hold either of them do not count.
     pub fn occluded(&self, from: DVec3, to: DVec3) -> bool {
         let [from, to] = [from, to].map(|end| self.place(end));
-        let way = to.at - from.at;
-        self.blocked(&from, way, way.length(), |face, _| !self.holds(face, &to))
+        let shot = Shot::new(from, to.at - from.at, Some(to));
+        !self.is_free(0, &shot, &|shot, face, _| shot.end.is_none_or(|end| !self.holds(face, &end)))
     }
 
     /// True when a surface lies in a direction, at any distance. Faces that hold `from` do not count.
     pub fn occluded_toward(&self, from: DVec3, direction: DVec3) -> bool {
-        self.blocked(&self.place(from), direction, f64::INFINITY, |_, _| true)
+        !self.is_free(0, &Shot::new(self.place(from), direction, None), &|_, _, _| true)
     }
 
-    /// True when a hit nearer than `reach` world units, on a face that does not hold the ray's beginning, `counts`: it is
+    /// False when a hit nearer than a ray's reach, on a face at or below a node that does not hold the ray's beginning, `counts`: it is
     /// given the face and the distance along the ray.
-    pub(crate) fn blocked(
-        &self,
-        from: &Place,
-        direction: DVec3,
-        reach: f64,
-        counts: impl Fn(u32, f64) -> bool,
-    ) -> bool {
-        let Some(direction) = direction.try_normalize() else { return false };
-        let mut found = false;
-        self.walk(&Ray::new(from.at, direction), reach, &mut |face, t| {
-            found = t < reach && counts(face, t) && !self.holds(face, from);
-            if found { None } else { Some(reach) }
-        });
-        found
+    fn is_free(&self, node: u32, shot: &Shot, counts: &impl Fn(&Shot, u32, f64) -> bool) -> bool {
+        let Shot { ray, from, reach, .. } = shot;
+        ray.walk_from(&self.tree, &self.triangles, node, *reach, &mut |face, t| {
+            let there = || self.covers.is_none() || self.is_there(face, ray.at(t));
+            let blocks = t < *reach && there() && counts(shot, face, t) && !self.holds(face, from);
+            if blocks { None } else { Some(*reach) }
+        })
     }
 
-    /// What passes of the light along a ray, the product over the surfaces that `count`, as [`Geometry::blocked`] has it.
+    /// For each ray whether a hit as [`Geometry::is_free`] has it is in its way; fast where they go much the same way.
+    pub(crate) fn blocked(&self, shots: &[&Shot], counts: impl Fn(&Shot, u32, f64) -> bool) -> Vec<bool> {
+        // From so many boxes a ray's way is no longer than from the root.
+        const NODES: usize = 16;
+        let most = if shots.len() < 4 { 1 } else { NODES };
+        let mut nodes = Shaft::around(shots.iter().map(|shot| &shot.ray)).nodes(&self.tree, most);
+        let blocked = |shot: &&Shot| {
+            let at = nodes.iter().position(|&node| !self.is_free(node, shot, &counts));
+            // What blocks one ray often blocks the next.
+            at.inspect(|&at| nodes.swap(0, at)).is_some()
+        };
+        shots.iter().map(blocked).collect()
+    }
+
+    /// What passes of the light along a ray, the product over the surfaces that `count`, as [`Geometry::is_free`] has it.
     ///
     /// A ray through a shared edge meets both its faces but crosses one surface: faces of an object that are met from the
     /// same side at one distance count once.
-    pub(crate) fn passed(&self, from: &Place, direction: DVec3, reach: f64, counts: impl Fn(u32, f64) -> bool) -> Vec3 {
-        let Some(direction) = direction.try_normalize() else { return Vec3::ONE };
+    pub(crate) fn passed(&self, shot: &Shot, counts: impl Fn(&Shot, u32, f64) -> bool) -> Vec3 {
+        let &Shot { ref ray, ref from, reach, .. } = shot;
         let mut passes = Vec3::ONE;
         let mut crossed: Vec<(u32, bool, f64)> = Vec::new();
-        let ray = Ray::new(from.at, direction);
-        self.walk(&ray, reach, &mut |index, t| {
-            if t < reach && counts(index, t) && !self.holds(index, from) {
+        self.walk(ray, reach, &mut |index, t| {
+            if t < reach && counts(shot, index, t) && !self.holds(index, from) {
                 let (face, triangle) = (&self.faces[index as usize], &self.triangles[index as usize]);
-                let outside = triangle.normal.dot(direction) < 0.0;
+                let outside = triangle.normal.dot(ray.direction()) < 0.0;
                 // Both planes are met with the rounding of f64, which a grazing ray stretches.
                 let slack = 16.0 * EXACT * (t + triangle.size());
                 let again = |&(object, side, at): &(u32, bool, f64)| {

@@ -16,10 +16,16 @@ impl Triangle {
         Self { corners, normal: (b - a).cross(c - a).normalize_or_zero() }
     }
 
-    /// The longest side of the box around it.
-    pub fn size(&self) -> f64 {
+    /// The box around it.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
         let [a, b, c] = self.corners;
-        (a.max(b).max(c) - a.min(b).min(c)).max_element()
+        (a.min(b).min(c), a.max(b).max(c))
+    }
+
+    /// The longest side of that box.
+    pub fn size(&self) -> f64 {
+        let (low, high) = self.bounds();
+        (high - low).max_element()
     }
 
     /// The barycentric weights of a point of its plane, clamped to the triangle; all of the first corner where it has no area, and for a

@@ -1,5 +1,5 @@
 use crate::Geometry;
-use crate::geometry::Place;
+use crate::geometry::{Place, Shot};
 use glam::{DVec2, DVec3, DVec4, Vec3};
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -47,35 +47,53 @@ impl Lamp {
         }
     }
 
-    /// What passes of the light from `light` (homogeneous as [`Lamp::at`]) on its way to a point, which `from` is on its surface.
-    fn passes(&self, geometry: &Geometry, at: &SurfacePoint, from: &Place, light: DVec4) -> Vec3 {
-        let lamp = (light.w != 0.0).then(|| geometry.place(light.truncate()));
-        let way = lamp.map_or(light.truncate(), |lamp| lamp.at - from.at);
+    /// How light comes from `light` (homogeneous as [`Lamp::at`]) to a point, which `from` is on its surface.
+    fn way(&self, geometry: &Geometry, at: &SurfacePoint, from: &Place, light: DVec4) -> Way {
+        let end = (light.w != 0.0).then(|| geometry.place(light.truncate()));
+        let way = end.map_or(light.truncate(), |end| end.at - from.at);
         let normal = at.normal.as_dvec3();
         let facing = normal.dot(way);
         let body = geometry.body(at.object);
-        let truth = &self.truth;
         let opaque = body.passes == Vec3::ZERO;
-        if body.solid && opaque && (body.casts || !truth.casters_only) && facing <= 0.0 {
-            return Vec3::ZERO;
+        if body.solid && opaque && (body.casts || !self.truth.casters_only) && facing <= 0.0 {
+            return Way::Known(Vec3::ZERO);
         }
-        let from = &from.lifted(normal * 1f64.copysign(facing));
-        let way = lamp.map_or(way, |lamp| lamp.at - from.at);
-        let reach = if lamp.is_some() { way.length() } else { f64::INFINITY };
-        let counts = |index: u32, t: f64| {
+        let from = from.lifted(normal * 1f64.copysign(facing));
+        let way = end.map_or(way, |end| end.at - from.at);
+        Way::Ray(Shot { object: Some(at.object), ..Shot::new(from, way, end) })
+    }
+
+    /// What passes of the light on each way, in their order; fast where they go much the same way.
+    fn pass(&self, geometry: &Geometry, ways: &[Way]) -> Vec<Vec3> {
+        let truth = self.truth;
+        let counts = |shot: &Shot, index: u32, t: f64| {
             let object = geometry.faces()[index as usize].object;
             let ignored = truth.casters_only && !geometry.body(object).casts;
-            let own = object == at.object && t <= truth.own_slack;
-            let at_the_light = || lamp.is_some_and(|lamp| geometry.holds(index, &lamp));
+            let own = Some(object) == shot.object && t <= truth.own_slack;
+            let at_the_light = || shot.end.is_some_and(|end| geometry.holds(index, &end));
             !(ignored || own || at_the_light())
         };
-        if self.opaque {
-            // Any surface will do, whichever is found first.
-            let dark = geometry.blocked(from, way, reach, counts);
-            return if dark { Vec3::ZERO } else { Vec3::ONE };
-        }
-        geometry.passed(from, way, reach, counts)
+        let shots = ways.iter().filter_map(|way| if let Way::Ray(shot) = way { Some(shot) } else { None });
+        // Any surface will do, whichever is found first.
+        let dark = if self.opaque { geometry.blocked(&shots.collect::<Vec<_>>(), counts) } else { Vec::new() };
+        let mut dark = dark.into_iter();
+        let passes = |way: &Way| match way {
+            Way::Known(passes) => *passes,
+            Way::Ray(shot) => match dark.next() {
+                Some(dark) => Vec3::splat(f32::from(u8::from(!dark))),
+                None => geometry.passed(shot, counts),
+            },
+        };
+        ways.iter().map(passes).collect()
     }
+}
+
+/// How light comes to a point.
+enum Way {
+    /// So much passes, whatever stands where.
+    Known(Vec3),
+    /// What is on a ray decides.
+    Ray(Shot),
 }
 
 /// What passes of the light, linear RGB, over a number of samples.
@@ -90,16 +108,8 @@ impl Passed {
         Self { sum: passes, samples: 1.0 }
     }
 
-    /// Over `across`² jittered cells of the unit square.
-    fn over(across: u32, key: Key, passes: impl Fn(DVec2) -> Vec3) -> Self {
-        let across = across.max(1);
-        let mut sum = Vec3::ZERO;
-        for cell in 0..across * across {
-            let jitter = DVec2::new(f64::from(key.unit(cell, 0)), f64::from(key.unit(cell, 1)));
-            let corner = DVec2::new(f64::from(cell % across), f64::from(cell / across));
-            sum += passes((corner + jitter) / f64::from(across));
-        }
-        Self { sum, samples: (across * across) as f32 }
+    fn over(passes: &[Vec3]) -> Self {
+        Self { sum: passes.iter().fold(Vec3::ZERO, |sum, passes| sum + passes), samples: passes.len() as f32 }
     }
 
     /// The mean shadow of the three channels. Sums of zeros and ones are exact: so is the fraction of dark samples.
@@ -111,6 +121,16 @@ impl Passed {
     fn mean(self) -> Vec3 {
         self.sum / self.samples
     }
+}
+
+/// A place in each of `across`² jittered cells of the unit square.
+fn jittered(across: u32, key: Key) -> impl Iterator<Item = DVec2> {
+    let across = across.max(1);
+    (0..across * across).map(move |cell| {
+        let jitter = DVec2::new(f64::from(key.unit(cell, 0)), f64::from(key.unit(cell, 1)));
+        let corner = DVec2::new(f64::from(cell % across), f64::from(cell / across));
+        (corner + jitter) / f64::from(across)
+    })
 }
 
 /// Exact hard shadows by one ray per point: 0 or 1, and between where light passes through things.
@@ -160,16 +180,24 @@ impl<'a> RayCast<'a> {
 
     /// What passes of the light, linear RGB: 1 lit, 0 dark.
     pub fn passes(&self, point: &SurfacePoint) -> Vec3 {
-        if let Some(known) = self.lamp.verdict(point) {
-            return Vec3::splat(1.0 - known);
-        }
-        self.lamp.passes(self.geometry, point, &self.geometry.settled(point), self.lamp.at)
+        self.all_passes(std::slice::from_ref(point))[0]
+    }
+
+    /// [`RayCast::passes`] of points that lie near each other.
+    fn all_passes(&self, points: &[SurfacePoint]) -> Vec<Vec3> {
+        let Self { geometry, lamp } = self;
+        let way = |(point, from): (&SurfacePoint, Place)| match lamp.verdict(point) {
+            Some(known) => Way::Known(Vec3::splat(1.0 - known)),
+            None => lamp.way(geometry, point, &from, lamp.at),
+        };
+        let ways: Vec<Way> = points.iter().zip(geometry.all_settled(points.iter())).map(way).collect();
+        lamp.pass(geometry, &ways)
     }
 }
 
 impl Shadow for RayCast<'_> {
     fn fractions(&self, at: &[SurfacePoint], _key: Key, out: &mut [f32]) {
-        each(at, out, |point| self.at(point));
+        batches(at, out, |at| self.all_passes(at).into_iter().map(|passes| Passed::one(passes).shadow()));
     }
 
     fn transmittances(&self, at: &[SurfacePoint], key: Key, fractions: &[f32], out: &mut [Vec3]) {
@@ -177,7 +205,7 @@ impl Shadow for RayCast<'_> {
             return Unshadowed.transmittances(at, key, fractions, out);
         }
         same_length(at, fractions);
-        each(at, out, |point| self.passes(point));
+        batches(at, out, |at| self.all_passes(at));
     }
 }
 
@@ -202,10 +230,11 @@ impl<'a> AreaRegion<'a> {
 impl AreaRegion<'_> {
     fn passed(&self, point: &SurfacePoint, key: Key) -> Passed {
         let [a, b, c, d] = point.corners();
-        Passed::over(self.across, key.region(point.region), |s| {
+        let points = jittered(self.across, key.region(point.region)).map(|s| {
             let position = a.lerp(b, s.x).lerp(d.lerp(c, s.x), s.y);
-            self.ray.passes(&SurfacePoint { position, corner_offsets: [Vec3::ZERO; 4], ..*point })
-        })
+            SurfacePoint { position, corner_offsets: [Vec3::ZERO; 4], ..*point }
+        });
+        Passed::over(&self.ray.all_passes(&points.collect::<Vec<_>>()))
     }
 }
 
@@ -267,11 +296,12 @@ impl<'a> AreaLight<'a> {
         };
         let from = self.ray.geometry.settled(point);
         let (right, up) = axis.normalize_or(DVec3::Z).any_orthonormal_pair();
-        Passed::over(self.across, key.region(point.region), |s| {
+        let ways = jittered(self.across, key.region(point.region)).map(|s| {
             let on_disc = to_disc(s) * self.radius;
             let light = lamp.at + (right * on_disc.x + up * on_disc.y).extend(0.0);
-            lamp.passes(self.ray.geometry, point, &from, light)
-        })
+            lamp.way(self.ray.geometry, point, &from, light)
+        });
+        Passed::over(&lamp.pass(self.ray.geometry, &ways.collect::<Vec<_>>()))
     }
 }
 
@@ -309,11 +339,24 @@ fn to_disc(unit: DVec2) -> DVec2 {
 /// When there is not one for each.
 #[track_caller]
 fn each<T: Send>(at: &[SurfacePoint], out: &mut [T], answer: impl Fn(&SurfacePoint) -> T + Sync) {
+    batches(at, out, |at| at.iter().map(&answer));
+}
+
+/// The answer of each point, for many at once.
+///
+/// # Panics
+/// When there is not one for each.
+#[track_caller]
+fn batches<'p, T: Send, A: IntoIterator<Item = T>>(
+    at: &'p [SurfacePoint],
+    out: &mut [T],
+    answers: impl Fn(&'p [SurfacePoint]) -> A + Sync,
+) {
     const BATCH: usize = 64;
     same_length(at, out);
     at.par_chunks(BATCH).zip(out.par_chunks_mut(BATCH)).for_each(|(at, out)| {
-        for (point, out) in at.iter().zip(out) {
-            *out = answer(point);
+        for (answer, out) in answers(at).into_iter().zip(out) {
+            *out = answer;
         }
     });
 }

@@ -65,5 +65,6 @@ pub(crate) fn blocks(setup: &Setup<'_>, triangles: impl Iterator<Item = Triangle
 /// Fills a buffer with the next triangles.
 fn take(triangles: &mut impl Iterator<Item = Triangle>, buffer: &mut Vec<Triangle>) {
     buffer.clear();
-    buffer.extend(triangles.take(SIZE));
+    // Not `extend`: an iterator of iterators is run through faster from within.
+    triangles.take(SIZE).for_each(|triangle| buffer.push(triangle));
 }

@@ -21,6 +21,16 @@ pub(crate) struct Region {
     pub zeta: f32,
 }
 
+/// What the camera sees in a tile.
+pub(crate) struct Gathered {
+    /// In the order of their pixels.
+    pub regions: Vec<Region>,
+    /// Fragments met.
+    pub fragments: u64,
+    /// How many of them were nearer than all before.
+    pub passing: u64,
+}
+
 /// One sample of a pixel: the key that won and the facet (index into the tile's list).
 #[derive(Clone, Copy)]
 struct Sample {
@@ -46,14 +56,14 @@ pub(crate) struct Gather<'a> {
 }
 
 impl Gather<'_> {
-    /// The regions of a tile in pixel order, for the pixels that are `wanted`, the number of fragments met, and how many of them were nearer than all before.
-    pub fn tile(&self, tile: UVec2, wanted: impl Fn(u32) -> bool) -> (Vec<Region>, u64, u64) {
+    /// The regions of a tile in pixel order, for the pixels that are `wanted`.
+    pub fn tile(&self, tile: UVec2, wanted: impl Fn(u32) -> bool) -> Gathered {
         let origin = (tile * BIN).as_ivec2();
         let mut facets: Vec<Facet> = Vec::new();
         let mut samples = vec![NONE; (BIN * BIN) as usize];
         // What is nearer than the camera's near plane is not seen.
         let nearest = self.view.key(self.view.near()) as f32;
-        let (mut fragments, mut passing) = (0, 0);
+        let mut gathered = Gathered { regions: Vec::new(), fragments: 0, passing: 0 };
         self.masks.tile(self.bins, tile, |facet, coverage| {
             let index = facets.len() as u32;
             facets.push(*facet);
@@ -61,93 +71,94 @@ impl Gather<'_> {
                 if key < nearest {
                     return;
                 }
-                fragments += 1;
+                gathered.fragments += 1;
                 // Facets come in the order of their triangles: at equal keys the first stays.
                 if key < samples[cell].key {
-                    passing += 1;
+                    gathered.passing += 1;
                     samples[cell] = Sample { key, facet: index };
                 }
             });
         });
-        let mut regions = Vec::new();
         if !facets.is_empty() {
+            let surfaces = facets.iter().map(|facet| Surface::of(self.soup, facet)).collect();
+            let tile = Tile { origin, samples, facets, surfaces };
             let (across, picture) = (BIN / self.axis, self.view.size() / self.axis);
+            let mut room = Room::default();
+            let least = if self.every_sample { BIN * BIN } else { across * across };
+            gathered.regions.reserve(least as usize);
             for pixel in 0..across * across {
                 let corner = UVec2::new(pixel % across, pixel / across) * self.axis;
                 let place = (origin.as_uvec2() + corner) / self.axis;
                 if place.cmplt(picture).all() && wanted(place.y * self.width + place.x) {
-                    self.pixel(origin, corner, pixel, &samples, &facets, &mut regions);
+                    self.pixel(&tile, corner, pixel, &mut room, &mut gathered.regions);
                 }
             }
         }
-        (regions, fragments, passing)
+        gathered
     }
 
-    fn pixel(
-        &self,
-        origin: IVec2,
-        corner: UVec2,
-        pixel: u32,
-        samples: &[Sample],
-        facets: &[Facet],
-        regions: &mut Vec<Region>,
-    ) {
-        let mut groups: Vec<Group> = Vec::new();
+    fn pixel(&self, tile: &Tile, corner: UVec2, pixel: u32, room: &mut Room, regions: &mut Vec<Region>) {
+        let origin = tile.origin;
+        let Room { groups, members } = room;
+        groups.clear();
+        members.clear();
         for i in 0..self.axis * self.axis {
             let cell = UVec2::new(i % self.axis, i / self.axis);
             let at = corner + cell;
-            let sample = samples[(at.y * BIN + at.x) as usize];
-            let Some(facet) = facets.get(sample.facet as usize) else { continue };
+            let facet = tile.samples[(at.y * BIN + at.x) as usize].facet;
+            let Some(&surface) = tile.surfaces.get(facet as usize) else { continue };
             let position = self.view.sampling().position(origin + at.as_ivec2());
-            let surface = Surface::of(self.soup, facet);
-            let group = groups.iter_mut().find(|group| group.surface == surface && !self.every_sample);
-            let covered = |cells: Cells| cells.with(cell.x, cell.y, self.axis);
-            if let Some(group) = group {
-                group.cells = covered(group.cells);
-                group.members.push((position, sample.facet));
-            } else {
-                let (cells, members) = (covered(Cells::NONE), vec![(position, sample.facet)]);
-                groups.push(Group { surface, cells, members });
-            }
+            let known = if self.every_sample { None } else { groups.iter().position(|group| group.surface == surface) };
+            let group = known.unwrap_or_else(|| {
+                groups.push(Group { surface, cells: Cells::NONE, count: 0 });
+                groups.len() - 1
+            });
+            groups[group].cells = groups[group].cells.with(cell.x, cell.y, self.axis);
+            groups[group].count += 1;
+            members.push(Member { group, position, facet });
         }
         let middle = (origin.as_dvec2() + corner.as_dvec2()) + f64::from(self.axis) * 0.5;
         let place = (origin / self.axis as i32).as_uvec2() + corner / self.axis;
         let name = (place.y * self.width + place.x).wrapping_mul(64);
-        let all = (self.axis * self.axis) as usize;
-        for (index, Group { surface, cells, members }) in groups.iter().enumerate() {
-            let centre = if members.len() == all && !self.every_sample {
+        let all = self.axis * self.axis;
+        for (index, &Group { surface, cells, count }) in groups.iter().enumerate() {
+            // Of samples that are regions by themselves, each is the only one of its group.
+            let members = if self.every_sample { &members[index..=index] } else { &members[..] };
+            let members = || members.iter().filter(|member| member.group == index);
+            let centre = if count == all && !self.every_sample {
                 middle
             } else {
-                members.iter().map(|(position, _)| *position).sum::<DVec2>() / members.len() as f64
+                members().map(|member| member.position).sum::<DVec2>() / f64::from(count)
             };
-            let share = members.len() as f32 / all as f32;
-            let nearest = members.iter().min_by(|a, b| {
-                let distance = |(position, _): &(DVec2, u32)| position.distance_squared(centre);
+            let nearest = members().min_by(|a, b| {
+                let distance = |member: &Member| member.position.distance_squared(centre);
                 distance(a).total_cmp(&distance(b))
             });
-            if let Some(&(position, facet)) = nearest {
-                let mut region = self.region(&facets[facet as usize], surface.front, centre, position);
+            if let Some(&Member { position, facet, .. }) = nearest {
+                regions.push(self.region(&tile.facets[facet as usize], surface.front, centre, position));
+                let Some(region) = regions.last_mut() else { continue };
                 region.point.region = name.wrapping_add(index as u32);
-                region.point.cells = if self.every_sample { Cells::ALL } else { *cells };
-                let texture = self.texture(members, facets);
-                regions.push(Region { texture, share, pixel, ..region });
+                region.point.cells = if self.every_sample { Cells::ALL } else { cells };
+                region.texture = self.texture(members(), count, &tile.facets);
+                region.share = count as f32 / all as f32;
+                region.pixel = pixel;
             }
         }
     }
 
-    /// The mean of the texture and the corners' colours over the samples of a group: a pixel may see many texels.
-    fn texture(&self, members: &[(DVec2, u32)], facets: &[Facet]) -> Vec3 {
+    /// The mean of the texture and the corners' colours over the `count` samples of a group: a pixel may see many texels.
+    fn texture<'m>(&self, members: impl Iterator<Item = &'m Member>, count: u32, facets: &[Facet]) -> Vec3 {
         let mut sum = Vec3::ZERO;
-        for &(position, facet) in members {
-            let facet = &facets[facet as usize];
+        for member in members {
+            let facet = &facets[member.facet as usize];
             // They are of one object: all are plain or none.
             if self.soup.is_plain(facet.triangle) {
                 return Vec3::ONE;
             }
-            let at = self.view.world_at(position, facet.plane.at(position));
+            let at = self.view.world_at(member.position, facet.plane.at(member.position));
             sum += self.soup.colour(facet.triangle, at);
         }
-        sum / members.len() as f32
+        sum / count as f32
     }
 
     /// The region around `centre` (sample space) on a facet's plane; `sample` is where that facet was surely hit.
@@ -179,17 +190,41 @@ impl Gather<'_> {
     }
 }
 
+/// What the samples of a tile see.
+struct Tile {
+    /// Its upper left sample.
+    origin: IVec2,
+    samples: Vec<Sample>,
+    facets: Vec<Facet>,
+    /// What each facet is part of.
+    surfaces: Vec<Surface>,
+}
+
+/// Room for one pixel after another.
+#[derive(Default)]
+struct Room {
+    groups: Vec<Group>,
+    members: Vec<Member>,
+}
+
 /// Samples of a pixel that are shaded together.
 struct Group {
     surface: Surface,
     /// Where in the pixel they are.
     cells: Cells,
-    /// Where each is, and the facet that it sees.
-    members: Vec<(DVec2, u32)>,
+    /// How many they are.
+    count: u32,
+}
+
+/// A sample of a group: where it is, and the facet that it sees.
+struct Member {
+    group: usize,
+    position: DVec2,
+    facet: u32,
 }
 
 /// What samples have in common that are shaded together.
-#[derive(PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 struct Surface {
     object: u32,
     piece: u32,

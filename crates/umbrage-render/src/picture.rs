@@ -1,5 +1,5 @@
 use crate::Soup;
-use crate::camera::{Gather, Region};
+use crate::camera::{Gather, Gathered, Region};
 use crate::shade::shade;
 use glam::{DVec3, UVec2, Vec3};
 use rayon::prelude::*;
@@ -111,79 +111,112 @@ pub fn picture_where(
     frame: &Frame,
     wanted: impl Fn(u32) -> bool + Sync,
 ) -> Picture {
+    let mut picture = Picture::empty(scene, scene.camera.size());
+    let finish = |origin, gathered| (origin, finish_tile(scene, shadows, frame, &gathered));
+    each_tile(scene, frame, wanted, finish, |(origin, tile)| picture.place(origin, &tile));
+    picture
+}
+
+/// What the camera sees of a scene, for several [pictures](picture) of it that differ in their shadows alone: its samples are taken once.
+///
+/// Some 150 bytes are kept for each region.
+pub struct Sight {
+    frame: Frame,
+    /// The pixel at the upper left of each tile, and what is seen there.
+    tiles: Vec<(UVec2, Gathered)>,
+}
+
+impl Sight {
+    /// What [`picture`] would shade.
+    pub fn new(scene: &Scene, frame: &Frame) -> Self {
+        let mut tiles = Vec::new();
+        each_tile(scene, frame, |_| true, |origin, gathered| (origin, gathered), |tile| tiles.push(tile));
+        Self { frame: *frame, tiles }
+    }
+
+    /// The same as [`picture`] of the scene and the frame that it was made with.
+    pub fn picture(&self, scene: &Scene, shadows: &[&dyn Shadow]) -> Picture {
+        let mut picture = Picture::empty(scene, scene.camera.size());
+        let done: Vec<TileOut> =
+            self.tiles.par_iter().map(|(_, gathered)| finish_tile(scene, shadows, &self.frame, gathered)).collect();
+        for ((origin, _), tile) in self.tiles.iter().zip(&done) {
+            picture.place(*origin, tile);
+        }
+        picture
+    }
+}
+
+/// Gathers what the camera sees of each tile, `finish`es many tiles at once, given the pixel at a tile's upper left and what is seen, and lets `take` have what
+/// came of them, in their order.
+fn each_tile<T: Send>(
+    scene: &Scene,
+    frame: &Frame,
+    wanted: impl Fn(u32) -> bool + Sync,
+    finish: impl Fn(UVec2, Gathered) -> T + Sync,
+    mut take: impl FnMut(T),
+) {
     let axis = frame.axis_for(&scene.camera);
     let view = frame.sample_view(&scene.camera);
     let soup = Soup::all(scene, &scene.camera);
     let mut masks = Masks::new(&view);
     let triangles = soup.casting().map(|caster| masks.note(caster));
     let bins = Bins::new(&view, TexelRect::of_size(view.size()), Cull::None, triangles);
-    let size = scene.camera.size();
-    let (every_sample, width) = (frame.every_sample, size.x);
+    let (every_sample, width) = (frame.every_sample, scene.camera.size().x);
     let gather = Gather { soup: &soup, bins: &bins, masks: &masks, view: &view, axis, every_sample, width };
     let tiles = bins.tiles();
-    let mut picture = Picture::empty(scene, size);
     // A pixel that is finished takes several times as much as what the picture keeps of it.
     let (count, together) = (tiles.x * tiles.y, TOGETHER.max(16 * rayon::current_num_threads() as u32));
     for first in (0..count).step_by(together as usize) {
-        let done: Vec<(UVec2, TileOut)> = (first..count.min(first + together))
+        let done: Vec<T> = (first..count.min(first + together))
             .into_par_iter()
             .map(|index| {
                 let tile = UVec2::new(index % tiles.x, index / tiles.x);
-                (tile * (BIN / axis), finish_tile(scene, shadows, frame, gather.tile(tile, &wanted)))
+                finish(tile * (BIN / axis), gather.tile(tile, &wanted))
             })
             .collect();
-        for (origin, tile) in done {
-            picture.place(origin, BIN / axis, &tile);
-        }
+        done.into_iter().for_each(&mut take);
     }
-    picture
 }
 
+/// A finished pixel of a tile.
 struct Pixel {
     index: u32,
     colour: Vec3,
     covered: f32,
-    shadow: Vec<f32>,
-    facing: Vec<f32>,
-    /// Objects met, each with its fraction of the samples.
-    objects: Vec<(u32, f32)>,
+    /// The fraction of the samples that meet the object of the largest region.
+    share: f32,
     best: f32,
     point: SurfacePoint,
     zeta: f32,
 }
 
 /// What one light's shadow says of a tile's regions.
-#[derive(Clone)]
 struct Answer {
     fractions: Vec<f32>,
     passes: Vec<Vec3>,
 }
 
-impl Answer {
-    fn lit(regions: usize) -> Self {
-        Self { fractions: vec![0.0; regions], passes: vec![Vec3::ONE; regions] }
-    }
-}
-
+/// A finished tile.
 struct TileOut {
+    /// Pixels across it.
+    across: u32,
     pixels: Vec<Pixel>,
+    /// Of each pixel, for each light: the fraction in shadow and the cosine to the light.
+    lights: Vec<[f32; 2]>,
     fragments: u64,
     passing: u64,
     regions: u64,
 }
 
-fn finish_tile(
-    scene: &Scene,
-    shadows: &[&dyn Shadow],
-    frame: &Frame,
-    (regions, fragments, passing): (Vec<Region>, u64, u64),
-) -> TileOut {
+fn finish_tile(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame, gathered: &Gathered) -> TileOut {
+    let Gathered { regions, fragments, passing } = gathered;
     let point = |region: &Region| {
         let normal = if frame.smooth { region.shading_normal } else { region.point.normal };
         SurfacePoint { normal, ..region.point }
     };
     let points: Vec<SurfacePoint> = regions.iter().map(point).collect();
-    let mut answers: Vec<Answer> = vec![Answer::lit(points.len()); scene.lights.len()];
+    let lit = |_| Answer { fractions: vec![0.0; points.len()], passes: vec![Vec3::ONE; points.len()] };
+    let mut answers: Vec<Answer> = scene.lights.iter().map(lit).collect();
     for (light, (shadow, answer)) in shadows.iter().zip(&mut answers).enumerate() {
         if scene.lights[light].casts {
             let key = Key::new(frame.seed, frame.number, light as u32);
@@ -191,63 +224,71 @@ fn finish_tile(
             shadow.transmittances(&points, key, &answer.fractions, &mut answer.passes);
         }
     }
-    let mut pixels: Vec<Pixel> = Vec::new();
-    let lights = scene.lights.len();
-    for (index, region) in regions.iter().enumerate() {
-        if pixels.last().is_none_or(|pixel| pixel.index != region.pixel) {
-            pixels.push(Pixel::new(region, lights));
-        }
-        if let Some(pixel) = pixels.last_mut() {
-            pixel.add(scene, region, &answers, index);
-        }
+    let mut tile = TileOut {
+        across: BIN / frame.axis_for(&scene.camera),
+        pixels: Vec::new(),
+        lights: Vec::new(),
+        fragments: *fragments,
+        passing: *passing,
+        regions: regions.len() as u64,
+    };
+    let mut shading =
+        Shading { scene, answers: &answers, arrives: vec![Vec3::ONE; answers.len()], objects: Vec::new() };
+    let mut first = 0;
+    for regions in regions.chunk_by(|a, b| a.pixel == b.pixel) {
+        tile.pixels.push(shading.pixel(regions, first, &mut tile.lights));
+        first += regions.len();
     }
-    TileOut { pixels, fragments, passing, regions: regions.len() as u64 }
+    tile
 }
 
-impl Pixel {
-    fn new(region: &Region, lights: usize) -> Self {
-        Self {
-            index: region.pixel,
-            colour: Vec3::ZERO,
-            covered: 0.0,
-            shadow: vec![0.0; lights],
-            facing: vec![0.0; lights],
-            objects: Vec::new(),
-            best: 0.0,
-            point: region.point,
-            zeta: region.zeta,
-        }
-    }
+/// Shades the pixels of a tile.
+struct Shading<'a> {
+    scene: &'a Scene,
+    answers: &'a [Answer],
+    /// Room for what of each light arrives at a region.
+    arrives: Vec<Vec3>,
+    /// Room for the objects that a pixel meets, each with its fraction of the samples.
+    objects: Vec<(u32, f32)>,
+}
 
-    fn add(&mut self, scene: &Scene, region: &Region, answers: &[Answer], index: usize) {
-        let receives = scene.objects[region.point.object as usize].receives;
-        let mut arrives = vec![Vec3::ONE; answers.len()];
-        for (light, answer) in answers.iter().enumerate() {
-            if receives {
-                arrives[light] = answer.passes[index];
-                self.shadow[light] += answer.fractions[index] * region.share;
+impl Shading<'_> {
+    /// The pixel of some regions, at least one, the first of which has the index `first` in the tile; adds what `lights` are to hold of it.
+    fn pixel(&mut self, regions: &[Region], first: usize, lights: &mut Vec<[f32; 2]>) -> Pixel {
+        let Self { scene, answers, arrives, objects } = self;
+        let Region { pixel: index, point, zeta, .. } = regions[0];
+        let mut pixel = Pixel { index, colour: Vec3::ZERO, covered: 0.0, share: 0.0, best: 0.0, point, zeta };
+        objects.clear();
+        let start = lights.len();
+        lights.resize(start + answers.len(), [0.0; 2]);
+        for (region, index) in regions.iter().zip(first..) {
+            let receives = scene.objects[region.point.object as usize].receives;
+            arrives.fill(Vec3::ONE);
+            for (light, answer) in answers.iter().enumerate() {
+                let [shadow, facing] = &mut lights[start + light];
+                if receives {
+                    arrives[light] = answer.passes[index];
+                    *shadow += answer.fractions[index] * region.share;
+                }
+                let toward = scene.lights[light].view.toward_eye(region.point.position);
+                *facing += region.point.normal.dot(toward.as_vec3()) * region.share;
             }
-            let toward = scene.lights[light].view.toward_eye(region.point.position);
-            self.facing[light] += region.point.normal.dot(toward.as_vec3()) * region.share;
+            let toward_eye = scene.camera.toward_eye(region.point.position).as_vec3();
+            pixel.colour += shade(scene, region, toward_eye, arrives) * region.share;
+            pixel.covered += region.share;
+            let object = region.point.object;
+            match objects.iter_mut().find(|(known, _)| *known == object) {
+                Some((_, share)) => *share += region.share,
+                None => objects.push((object, region.share)),
+            }
+            if region.share > pixel.best {
+                pixel.best = region.share;
+                pixel.point = region.point;
+                pixel.zeta = region.zeta;
+            }
         }
-        let toward_eye = scene.camera.toward_eye(region.point.position).as_vec3();
-        self.colour += shade(scene, region, toward_eye, &arrives) * region.share;
-        self.covered += region.share;
-        let object = region.point.object;
-        match self.objects.iter_mut().find(|(known, _)| *known == object) {
-            Some((_, share)) => *share += region.share,
-            None => self.objects.push((object, region.share)),
-        }
-        if region.share > self.best {
-            self.best = region.share;
-            self.point = region.point;
-            self.zeta = region.zeta;
-        }
-    }
-
-    /// The fraction of the samples that meet the object of the largest region.
-    fn share(&self) -> f32 {
-        self.objects.iter().find(|(object, _)| *object == self.point.object).map_or(0.0, |(_, share)| *share)
+        pixel.share = objects.iter().find(|(object, _)| *object == pixel.point.object).map_or(0.0, |(_, share)| *share);
+        pixel
     }
 }
 
@@ -271,20 +312,22 @@ impl Picture {
         }
     }
 
-    fn place(&mut self, origin: UVec2, across: u32, tile: &TileOut) {
+    /// `origin` is the tile's upper left pixel.
+    fn place(&mut self, origin: UVec2, tile: &TileOut) {
         self.fragments += tile.fragments;
         self.passing += tile.passing;
         self.regions += tile.regions;
-        for pixel in &tile.pixels {
-            let at = origin + UVec2::new(pixel.index % across, pixel.index / across);
+        let count = self.shadow.len();
+        for (nth, pixel) in tile.pixels.iter().enumerate() {
+            let at = origin + UVec2::new(pixel.index % tile.across, pixel.index / tile.across);
             let index = (at.y * self.size.x + at.x) as usize;
             self.colour[index] = self.colour[index] * (1.0 - pixel.covered) + pixel.colour;
-            for light in 0..self.shadow.len() {
-                self.shadow[light][index] = pixel.shadow[light];
-                self.facing[light][index] = pixel.facing[light];
+            for (light, &[shadow, facing]) in tile.lights[nth * count..][..count].iter().enumerate() {
+                self.shadow[light][index] = shadow;
+                self.facing[light][index] = facing;
             }
             self.object[index] = pixel.point.object;
-            self.share[index] = pixel.share();
+            self.share[index] = pixel.share;
             self.position[index] = pixel.point.position;
             self.normal[index] = pixel.point.normal;
             self.depth[index] = pixel.zeta;

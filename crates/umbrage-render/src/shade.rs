@@ -20,7 +20,12 @@ fn reflect(material: &Material, light: &Light, region: &Region, toward_eye: Vec3
     if cosine <= 0.0 {
         return Vec3::ZERO;
     }
+    let matt = material.diffuse * cosine;
+    // Most of the time would go into the powers of highlights that nothing of is seen.
+    if material.specular == Vec3::ZERO || incident == Vec3::ZERO {
+        return incident * matt;
+    }
     let half = (toward_light + toward_eye).normalize_or_zero();
     let highlight = region.shading_normal.dot(half).max(0.0).powf(material.shininess);
-    incident * (material.diffuse * cosine + material.specular * highlight)
+    incident * (matt + material.specular * highlight)
 }

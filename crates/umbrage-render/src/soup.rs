@@ -43,6 +43,7 @@ struct Piece<'a> {
 }
 
 impl Piece<'_> {
+    #[inline]
     fn triangle(&self, origin: DVec3, local: usize) -> Triangle {
         let world = |vertex: u32| origin + self.mesh.positions[vertex as usize].as_dvec3();
         Triangle { corners: self.mesh.triangles[local].map(world), object: self.object, sheet: self.sheet }
@@ -58,6 +59,7 @@ impl Piece<'_> {
         a * weights.x + b * weights.y + c * weights.z
     }
 
+    #[inline]
     fn caster<'m>(&self, origin: DVec3, local: usize, alpha_test: Mask<'m>, alpha_blend: Film<'m>) -> Caster<'m> {
         let normals = self.mesh.triangles[local].map(|vertex| self.mesh.normals[vertex as usize]);
         let mut caster = Caster::from(self.triangle(origin, local)).with_passes(self.passes).with_normals(normals);

@@ -1,5 +1,5 @@
 use crate::mesh::position_bits;
-use crate::patch::on_curve;
+use crate::patch::{Cut, on_curve};
 use crate::{Mesh, Patch};
 use glam::{DVec2, DVec3, Vec3};
 use std::collections::BTreeMap;
@@ -132,11 +132,15 @@ fn texels_per_world(patch: &Patch, view: &View) -> f64 {
 
 fn add(mesh: &mut Mesh, patch: &Patch, [columns, rows]: Rate, surface: u32) {
     let first = mesh.positions.len() as u32;
+    let (borders, least) = (borders(patch).map(Curve::new), patch.least_normal());
+    let along_u = |column: u32| f64::from(column) / f64::from(columns);
+    let cuts: Vec<Cut> = (0..=columns).map(|column| patch.cut(along_u(column))).collect();
     for row in 0..=rows {
-        for column in 0..=columns {
-            let (u, v) = (f64::from(column) / f64::from(columns), f64::from(row) / f64::from(rows));
-            let at = place(patch, [columns, rows], [column, row]).unwrap_or_else(|| patch.position(u, v));
-            mesh.vertex(at.as_vec3(), patch.normal(u, v).as_vec3());
+        let v = f64::from(row) / f64::from(rows);
+        for (column, cut) in (0..=columns).zip(&cuts) {
+            let at = place(&borders, [columns, rows], [column, row]).unwrap_or_else(|| cut.position(v));
+            let normal = cut.normal(v, least).unwrap_or_else(|| patch.normal(along_u(column), v));
+            mesh.vertex(at.as_vec3(), normal.as_vec3());
         }
     }
     let at = |column: u32, row: u32| first + row * (columns + 1) + column;
@@ -147,30 +151,47 @@ fn add(mesh: &mut Mesh, patch: &Patch, [columns, rows]: Rate, surface: u32) {
     }
 }
 
+/// A border as both its patches see it.
+struct Curve {
+    control: [Vec3; 4],
+    /// Whether this patch sees it the other way round.
+    is_turned: bool,
+    /// Whether it is the same from both ends.
+    is_palindrome: bool,
+}
+
+impl Curve {
+    fn new(border: [Vec3; 4]) -> Self {
+        let (control, is_turned) = canonical(border);
+        let bits = control.map(position_bits);
+        Self { control, is_turned, is_palindrome: bits == [bits[3], bits[2], bits[1], bits[0]] }
+    }
+
+    fn at(&self, step: u32, steps: u32) -> DVec3 {
+        let step = if self.is_palindrome {
+            step.min(steps - step)
+        } else if self.is_turned {
+            steps - step
+        } else {
+            step
+        };
+        on_curve(&self.control, f64::from(step) / f64::from(steps))
+    }
+}
+
 /// The point of a grid position on a border, from that border alone; `None` inside the patch.
-fn place(patch: &Patch, [columns, rows]: Rate, [column, row]: [u32; 2]) -> Option<DVec3> {
-    let [low_v, high_v, low_u, high_u] = borders(patch);
-    let (border, step, steps) = if row == 0 {
-        (low_v, column, columns)
+fn place([low_v, high_v, low_u, high_u]: &[Curve; 4], [columns, rows]: Rate, [column, row]: [u32; 2]) -> Option<DVec3> {
+    if row == 0 {
+        Some(low_v.at(column, columns))
     } else if row == rows {
-        (high_v, column, columns)
+        Some(high_v.at(column, columns))
     } else if column == 0 {
-        (low_u, row, rows)
+        Some(low_u.at(row, rows))
     } else if column == columns {
-        (high_u, row, rows)
+        Some(high_u.at(row, rows))
     } else {
-        return None;
-    };
-    let (control, is_turned) = canonical(border);
-    let palindrome = control.map(position_bits) == [3, 2, 1, 0].map(|index: usize| position_bits(control[index]));
-    let step = if palindrome {
-        step.min(steps - step)
-    } else if is_turned {
-        steps - step
-    } else {
-        step
-    };
-    Some(on_curve(&control, f64::from(step) / f64::from(steps)))
+        None
+    }
 }
 
 fn lead(leaders: &[usize], mut border: usize) -> usize {

@@ -83,13 +83,40 @@ impl Patch {
     }
 
     fn normal_at(&self, u: f64, v: f64) -> Option<DVec3> {
-        let along_u = blend(&self.control, slope(u), bernstein(v));
-        let along_v = blend(&self.control, bernstein(u), slope(v));
-        let normal = along_u.cross(along_v);
-        // A cross product this much smaller than the patch is rounding: the direction would be noise.
+        self.cut(u).normal(v, self.least_normal())
+    }
+
+    /// Below this length S_u × S_v is rounding, which leaves of a direction only noise.
+    pub(crate) fn least_normal(&self) -> f64 {
         let extent = self.control.iter().flatten().fold(0f32, |most, at| most.max((at - self.control[0][0]).length()));
-        let floor = f64::from(extent).powi(2) * 1e-9;
-        (normal.length() > floor).then(|| normal.normalize())
+        f64::from(extent).powi(2) * 1e-9
+    }
+
+    /// Cut along v.
+    pub(crate) fn cut(&self, u: f64) -> Cut {
+        Cut { position: rows(&self.control, bernstein(u)), slope: rows(&self.control, slope(u)) }
+    }
+}
+
+/// What a patch is at one u, by control points along v.
+pub(crate) struct Cut {
+    position: [DVec3; 4],
+    /// Its derivative by u.
+    slope: [DVec3; 4],
+}
+
+impl Cut {
+    /// [`Patch::position`].
+    pub fn position(&self, v: f64) -> DVec3 {
+        column(&self.position, bernstein(v))
+    }
+
+    /// [`Patch::normal`], `None` where S_u × S_v is not longer than `least`.
+    pub fn normal(&self, v: f64, least: f64) -> Option<DVec3> {
+        let along_u = column(&self.slope, bernstein(v));
+        let along_v = column(&self.position, slope(v));
+        let normal = along_u.cross(along_v);
+        (normal.length() > least).then(|| normal.normalize())
     }
 }
 
@@ -99,7 +126,14 @@ pub(crate) fn on_curve(control: &[Vec3; 4], t: f64) -> DVec3 {
 }
 
 fn blend(control: &[[Vec3; 4]; 4], along_u: DVec4, along_v: DVec4) -> DVec3 {
-    let rows = control.map(|row| mix(&row, along_u));
+    column(&rows(control, along_u), along_v)
+}
+
+fn rows(control: &[[Vec3; 4]; 4], along_u: DVec4) -> [DVec3; 4] {
+    control.map(|row| mix(&row, along_u))
+}
+
+fn column(rows: &[DVec3; 4], along_v: DVec4) -> DVec3 {
     rows[0] * along_v.x + rows[1] * along_v.y + rows[2] * along_v.z + rows[3] * along_v.w
 }
 

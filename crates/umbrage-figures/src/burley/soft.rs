@@ -6,7 +6,7 @@ use crate::stage::panels::{as_shaded, colour_panel, error_panel, shadow_and_erro
 use crate::stage::penumbra::{Edge, axial, burley_max, depth_step, mean_shadow};
 use crate::stage::set::Set;
 use glam::{DVec3, Vec3};
-use umbrage_oracle::{Geometry, metrics, predict};
+use umbrage_oracle::{metrics, predict};
 use umbrage_plane::SurfacePoint;
 use umbrage_recipe::Recipe;
 use umbrage_render::{Frame, light_map};
@@ -113,7 +113,7 @@ fn soft(cx: &Context) -> anyhow::Result<Made> {
         let mean = |x: f64| f64::midpoint(at(x, 1.0), at(x, -1.0));
         PLACES.iter().map(|&x| (x, mean(x))).collect()
     };
-    let geometry = Geometry::new(&set.scene, &set.scene.camera);
+    let geometry = set.geometry();
     let light = set.disc_light(cx, &geometry, LIGHT);
     let exact = at(&light);
     for (name, caption, recipe) in &recipes {
@@ -228,7 +228,7 @@ fn overlapping(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
     let set = Set::new(gallery::overlapping_boxes(), cx.pick(256, 128), 1024);
     let truth = set.truth_disc(cx, &Frame::CENTRES, LIGHT);
     let shown = as_shaded(&truth);
-    let geometry = Geometry::new(&set.scene, &set.scene.camera);
+    let geometry = set.geometry();
     let light = set.disc_light(cx, &geometry, LIGHT);
     // The box's edge just before the board's penumbra begins.
     let edges = [76.0, 80.0, 84.0].map(|x| edge(&set, x, 1.0).0);

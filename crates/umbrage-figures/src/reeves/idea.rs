@@ -68,7 +68,7 @@ fn points_of_view(cx: &Context) -> anyhow::Result<Made> {
             beside += u32::from(!TexelRect::of_size(light.size()).contains(texel));
             let around = TexelRect::new(texel - 1, texel + 2).texels();
             let compared = receiver.nearer(&light, Bias::Steps(1.5));
-            around.map(|texel| set.map.depth(texel)).any(|stored| compared <= stored)
+            around.map(|texel| set.map().depth(texel)).any(|stored| compared <= stored)
         });
         hidden += u32::from(!seen);
     }

@@ -225,7 +225,7 @@ fn float(cx: &Context) -> anyhow::Result<Made> {
     let whole = set.quantised(16);
     let shots = |bias: Bias| {
         let shoot = |map: &Arc<Tiled>| set.shoot_map(cx, presets::ordinary(bias).filter, map, &Frame::CENTRES);
-        (shoot(&whole), shoot(&set.map))
+        (shoot(&whole), shoot(set.map()))
     };
     let edge = metrics::both(&metrics::edge_mask(shadow_grid(&exact), 4), &of(&exact, |id| id == PLANE));
     let jagged = |picture: &Picture| value(metrics::rms(&picture.shadow[0], &exact.shadow[0], &edge));
@@ -237,7 +237,7 @@ fn float(cx: &Context) -> anyhow::Result<Made> {
         let filter = Pcf::default().with_pattern(Centre).with_depth(quarter).with_res_factor(0.0).with_min_size(0.0);
         set.shoot_map(cx, filter, map, &Frame::CENTRES)
     };
-    let (whole_s, float_s) = (on_plane(&whole), on_plane(&set.map));
+    let (whole_s, float_s) = (on_plane(&whole), on_plane(set.map()));
     let (at_0, float_at_0) = (false_shadow(&whole_0, &truth, 3).0, false_shadow(&float_0, &truth, 3).0);
     let (stepped, smooth) = (false_shadow(&whole_s, &truth, 3).0, false_shadow(&float_s, &truth, 3).0);
     Ok(Made {

@@ -40,7 +40,7 @@ fn coloured(cx: &Context) -> anyhow::Result<Made> {
     let picture = stage.shoot(cx, recipe, &Frame::default())?;
     let truth = stage.truth(cx, &Frame::default());
     let found = classes(&picture);
-    let mut swapped = Stage { scene: stage.scene.clone(), maps: stage.maps.clone() };
+    let mut swapped = stage.clone();
     let colours = [swapped.scene.lights[0].colour, swapped.scene.lights[1].colour];
     (swapped.scene.lights[0].colour, swapped.scene.lights[1].colour) = (colours[1], colours[0]);
     let other = swapped.shoot(cx, recipe, &Frame::default())?;

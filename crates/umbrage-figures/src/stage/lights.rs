@@ -1,17 +1,22 @@
 //! A scene of several lights: the map of each, the picture with all their shadows, and the truth beside it.
 
-use super::set::sized;
+use super::memo::Memo;
+use super::sized;
 use crate::figure::Context;
 use umbrage_depth::Map;
 use umbrage_oracle::{Diagnostic, Geometry, Plan, RayCast, Truth, diagnose};
-use umbrage_render::{Frame, Picture, bind_lights, light_maps, picture};
+use umbrage_render::{Frame, Picture, Sight, bind_lights, light_maps, picture};
 use umbrage_scene::{Light, Scene};
 use umbrage_shadow::{Shadow, Unshadowed};
 
 /// A scene of several lights: each has its map, and its shadow by the recipe of its own tree or by the figure's.
+///
+/// Its objects and its camera must not be changed.
+#[derive(Clone)]
 pub struct Stage {
     pub scene: Scene,
     pub maps: Vec<Option<Map>>,
+    sights: Memo<Frame, Sight>,
 }
 
 impl Stage {
@@ -22,7 +27,7 @@ impl Stage {
             light.view = sized(&light.view, (light.view.size().x / coarser).max(1));
         }
         let maps = light_maps(&scene, &"reeves87".parse()?)?;
-        Ok(Self { scene, maps })
+        Ok(Self { scene, maps, sights: Memo::default() })
     }
 
     /// The picture with every light's shadow.
@@ -55,7 +60,7 @@ impl Stage {
 
     /// The picture without any shadow.
     pub fn plain(&self, cx: &Context, frame: &Frame) -> Picture {
-        picture(&self.scene, &[], &Frame { seed: cx.seed, ..*frame })
+        self.draw(cx, &[], frame)
     }
 
     /// Rays instead of maps, for the lights that cast; what is left out of the maps blocks no light.
@@ -67,12 +72,15 @@ impl Stage {
             if light.casts { Box::new(RayCast::new(&geometry, &light.view).with(truth)) } else { Box::new(Unshadowed) }
         };
         let shadows: Vec<Box<dyn Shadow + '_>> = self.scene.lights.iter().map(ray).collect();
-        let shadows: Vec<&dyn Shadow> = shadows.iter().map(AsRef::as_ref).collect();
-        picture(&self.scene, &shadows, &Frame { seed: cx.seed, ..*frame })
+        self.draw(cx, &shadows, frame)
     }
 
-    fn draw(&self, cx: &Context, shadows: &[Box<dyn Shadow>], frame: &Frame) -> Picture {
+    fn draw(&self, cx: &Context, shadows: &[Box<dyn Shadow + '_>], frame: &Frame) -> Picture {
+        let frame = Frame { seed: cx.seed, ..*frame };
         let shadows: Vec<&dyn Shadow> = shadows.iter().map(AsRef::as_ref).collect();
-        picture(&self.scene, &shadows, &Frame { seed: cx.seed, ..*frame })
+        if frame.every_sample {
+            return picture(&self.scene, &shadows, &frame);
+        }
+        self.sights.once(frame, || Sight::new(&self.scene, &frame)).picture(&self.scene, &shadows)
     }
 }

@@ -1,23 +1,49 @@
 //! A scene with one light, set up for a figure: its map, the picture with a method's shadow, and the truth beside it.
 
+use super::memo::Memo;
 use super::truths::{Rays, Seen};
+use super::{sized, without_map};
 use crate::figure::Context;
-use glam::UVec2;
-use std::sync::Arc;
+use std::ops::Deref;
+use std::sync::{Arc, OnceLock};
 use umbrage_bake::bake;
-use umbrage_depth::{First, Raw, Tiled, quantise};
+use umbrage_depth::{First, Map, Raw, Storage, Tiled, quantise};
 use umbrage_oracle::{AreaLight, Geometry, RayCast};
 use umbrage_plane::{Kind, Sampling, View};
 use umbrage_raster::Cull;
 use umbrage_recipe::{LightShadow, Recipe, bind};
-use umbrage_render::{Frame, Picture, Soup, light_shadow, picture};
+use umbrage_render::{Frame, Picture, Sight, Soup, light_map, light_shadow, picture, receivers};
 use umbrage_scene::Scene;
 use umbrage_shadow::{Filter, Shadow, Unshadowed};
 
-/// A scene set up for one figure: camera and map sizes chosen, light 0 baked.
+/// A scene set up for one figure: camera and map sizes chosen.
+///
+/// What the camera sees, and light 0's maps, are made when they are first asked for, and kept. The camera may be changed afterwards; a scene of other objects or
+/// another light is another set.
 pub struct Set {
     pub scene: Scene,
-    pub map: Arc<Tiled>,
+    map: OnceLock<Arc<Tiled>>,
+    /// By the camera; for every set of the scene.
+    sights: Memo<(View, Frame), Sight>,
+    /// By the camera that it is diced for.
+    geometries: Memo<View, Geometry>,
+    /// By the light's view.
+    maps: Memo<(View, Recipe), Map>,
+    lights: Memo<(View, Recipe, Storage), LightShadow>,
+}
+
+/// The most bytes that a light's maps may take to be kept: of an area light there are many.
+const KEPT: usize = 32 << 20;
+
+/// A light's shadow that its set may keep.
+pub struct Kept(Arc<LightShadow>);
+
+impl Deref for Kept {
+    type Target = dyn Shadow;
+
+    fn deref(&self) -> &Self::Target {
+        &*self.0.shadow
+    }
 }
 
 impl Set {
@@ -30,19 +56,49 @@ impl Set {
     pub fn sampled(mut scene: Scene, pixels: u32, texels: u32, sampling: Sampling) -> Self {
         scene.camera = sized(&scene.camera, pixels);
         scene.lights[0].view = sized(&scene.lights[0].view, texels).with_sampling(sampling);
-        let light = scene.lights[0].view;
-        let map = bake(&light, Soup::casters(&scene, &light).triangles(), &First, Cull::None).map;
-        Self { scene, map }
+        Self::of(scene)
+    }
+
+    /// A scene as it is.
+    pub fn of(scene: Scene) -> Self {
+        Self {
+            scene,
+            map: OnceLock::new(),
+            sights: Memo::default(),
+            geometries: Memo::default(),
+            maps: Memo::default(),
+            lights: Memo::default(),
+        }
+    }
+
+    /// The same with another map of light 0.
+    pub fn with_map(self, map: Arc<Tiled>) -> Self {
+        Self { map: OnceLock::from(map), ..self }
+    }
+
+    /// The same scene seen by the same camera, of which another set may know something already, with `texels` across light 0's map.
+    pub fn with_texels(&self, texels: u32) -> Self {
+        let mut scene = self.scene.clone();
+        scene.lights[0].view = sized(&scene.lights[0].view, texels);
+        Self { sights: self.sights.clone(), geometries: self.geometries.clone(), ..Self::of(scene) }
+    }
+
+    /// Light 0's map of first depths.
+    pub fn map(&self) -> &Arc<Tiled> {
+        self.map.get_or_init(|| {
+            let light = &self.scene.lights[0].view;
+            bake(light, Soup::casters(&self.scene, light).triangles(), &First, Cull::None).map
+        })
     }
 
     /// The map with depths rounded to integers of `bits` (W78-6); the light's view must be of screen depth.
     pub fn quantised(&self, bits: u32) -> Arc<Tiled> {
-        Arc::new(Tiled::from(&quantise(&Raw::copy_of(&self.map), bits, false)))
+        Arc::new(Tiled::from(&quantise(&Raw::copy_of(self.map()), bits, false)))
     }
 
     /// The picture with light 0's shadow by `filter` over this set's map.
     pub fn shoot(&self, cx: &Context, filter: impl Filter + 'static, frame: &Frame) -> Picture {
-        self.shoot_map(cx, filter, &self.map, frame)
+        self.shoot_map(cx, filter, self.map(), frame)
     }
 
     /// The same over another map of the same light.
@@ -57,14 +113,34 @@ impl Set {
     }
 
     /// Light 0's shadow by a recipe, over the map that the recipe wants.
-    pub fn shadow(&self, cx: &Context, recipe: &str) -> anyhow::Result<Box<dyn Shadow>> {
-        let recipe: Recipe = recipe.parse()?;
-        Ok(self.light(cx, &recipe)?.shadow)
+    pub fn shadow(&self, cx: &Context, recipe: &str) -> anyhow::Result<Kept> {
+        Ok(Kept(self.light(cx, &recipe.parse()?)?))
     }
 
     /// Light 0's shadow by a recipe, and the maps that it took.
-    pub fn light(&self, cx: &Context, recipe: &Recipe) -> anyhow::Result<LightShadow> {
-        Ok(light_shadow(recipe, &[&self.scene], &self.scene.lights[0].view, cx.storage)?)
+    pub fn light(&self, cx: &Context, recipe: &Recipe) -> anyhow::Result<Arc<LightShadow>> {
+        let view = self.scene.lights[0].view;
+        let asked = (view, *recipe, cx.storage);
+        if let Some(known) = self.lights.known(&asked) {
+            return Ok(known);
+        }
+        let light = Arc::new(light_shadow(recipe, &[&self.scene], &view, cx.storage)?);
+        if light.maps.iter().map(|map| map.bytes).sum::<usize>() <= KEPT {
+            self.lights.keep(asked, &light);
+        }
+        Ok(light)
+    }
+
+    /// The one map of light 0 by a recipe that wants no more, fitted to what the camera sees where the recipe says so.
+    pub fn map_by(&self, recipe: &Recipe) -> anyhow::Result<Arc<Map>> {
+        let view = self.scene.lights[0].view;
+        if let Some(known) = self.maps.known(&(view, *recipe)) {
+            return Ok(known);
+        }
+        let fitted = if recipe.is_fitted() { view.fitted(receivers(&self.scene, &view))? } else { view };
+        let map = Arc::new(light_map(recipe, &self.scene, &fitted));
+        self.maps.keep((view, *recipe), &map);
+        Ok(map)
     }
 
     /// The picture without any shadow.
@@ -74,7 +150,13 @@ impl Set {
 
     /// The picture with any shadow.
     pub fn draw(&self, cx: &Context, shadow: &dyn Shadow, frame: &Frame) -> Picture {
-        picture(&self.scene, &[shadow], &Frame { seed: cx.seed, ..*frame })
+        let frame = Frame { seed: cx.seed, ..*frame };
+        // There would be too much of every sample.
+        if frame.every_sample {
+            return picture(&self.scene, &[shadow], &frame);
+        }
+        let sight = self.sights.once((self.scene.camera, frame), || Sight::new(&self.scene, &frame));
+        sight.picture(&self.scene, &[shadow])
     }
 
     /// Rays at the very points at which a method is looked up: one hard result per region.
@@ -113,27 +195,28 @@ impl Set {
         shadow: impl for<'a> Fn(&'a Geometry) -> Box<dyn Shadow + 'a>,
     ) -> Arc<Picture> {
         let frame = Frame { seed: cx.seed, ..*frame };
-        let Scene { name, lights, camera, .. } = &self.scene;
-        // The light's place matters, not its map's resolution.
-        let light = sized(&lights[0].view, 1);
-        let seen = Seen { scene: name.clone(), light, camera: *camera, frame, rays };
-        cx.truths.once(seen, || {
-            let geometry = Geometry::new(&self.scene, &self.scene.camera);
-            picture(&self.scene, &[&*shadow(&geometry)], &frame)
+        cx.truths.pictures.once(self.seen(frame, rays), || {
+            let geometry = self.geometry();
+            self.draw(cx, &*shadow(&geometry), &frame)
         })
+    }
+
+    /// All that rays of its truths meet.
+    pub fn geometry(&self) -> Arc<Geometry> {
+        let camera = self.scene.camera;
+        self.geometries.once(camera, || Geometry::new(&self.scene, &camera))
+    }
+
+    /// What a truth of it depends on.
+    pub fn seen(&self, frame: Frame, rays: Rays) -> Seen {
+        let Scene { name, lights, camera, .. } = &self.scene;
+        Seen { scene: name.clone(), light: without_map(&lights[0].view), camera: *camera, frame, rays }
     }
 }
 
 /// Rays to each point's disc light.
 fn disc_samples(cx: &Context) -> u32 {
     cx.pick(256, 64)
-}
-
-/// The same view with this number of columns, and rows in proportion.
-pub(super) fn sized(view: &View, across: u32) -> View {
-    let size = view.size();
-    let height = (u64::from(across) * u64::from(size.y) / u64::from(size.x.max(1))).max(1) as u32;
-    view.with_size(UVec2::new(across, height)).unwrap_or(*view)
 }
 
 /// The same scene with its light in another kind of depth.

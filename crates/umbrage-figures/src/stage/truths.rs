@@ -1,6 +1,7 @@
 //! Truths that a run has made already: rays are expensive, and several figures show one scene beside its truth.
 
-use std::sync::{Arc, Mutex};
+use super::many::Many;
+use super::memo::Memo;
 use umbrage_plane::View;
 use umbrage_render::{Frame, Picture};
 
@@ -33,30 +34,11 @@ pub(crate) struct Seen {
     pub rays: Rays,
 }
 
-type Known = (Seen, Arc<Picture>);
-
 /// The truths of one run. Clones share what they hold.
 #[derive(Clone, Debug, Default)]
 pub struct Truths {
-    made: Arc<Mutex<Vec<Known>>>,
-}
-
-impl Truths {
-    /// The picture for `seen`, made only the first time.
-    pub(crate) fn once(&self, seen: Seen, make: impl FnOnce() -> Picture) -> Arc<Picture> {
-        if let Some(known) = self.known(&seen) {
-            return known;
-        }
-        // Nothing is locked meanwhile: a picture takes all threads, and two callers at once make the same bits.
-        let picture = Arc::new(make());
-        if let Ok(mut made) = self.made.lock() {
-            made.push((seen, picture.clone()));
-        }
-        picture
-    }
-
-    fn known(&self, seen: &Seen) -> Option<Arc<Picture>> {
-        let made = self.made.lock().ok()?;
-        made.iter().find(|(other, _)| other == seen).map(|(_, picture)| picture.clone())
-    }
+    /// One look-up per region.
+    pub(crate) pictures: Memo<Seen, Picture>,
+    /// Many rays per pixel, each with what is judged by them.
+    pub(crate) many: Memo<Seen, Many>,
 }

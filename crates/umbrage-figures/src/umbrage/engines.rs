@@ -64,7 +64,7 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
         dark: truth.shadow[0][index],
     };
     let pixels: Vec<TruePixel> = (0..truth.object.len()).map(pixel).collect();
-    let trial = BiasTrial::new(&*set.map, &pixels, truth.size.x as usize, RADIUS);
+    let trial = BiasTrial::new(&**set.map(), &pixels, truth.size.x as usize, RADIUS);
     let middle = trial.median().ok_or_else(|| anyhow::anyhow!("no pixel is judged"))?;
     let view = set.scene.lights[0].view;
     let conditions = Conditions::of(&view, &middle)?;
@@ -81,13 +81,13 @@ fn bias(cx: &Context) -> anyhow::Result<Made> {
             rows.push([about.title.to_string(), about.version.to_string()].into_iter().chain(unknown).collect());
             continue;
         };
-        let shares = trial.shares_by(|receiver| default_of(engine, &set.map, receiver));
+        let shares = trial.shares_by(|receiver| default_of(engine, set.map(), receiver));
         let all = given.along_axis(&conditions)?;
         let numbers = [given.constant, given.slope, given.normal, all].map(number);
         let shares_of = [shares.false_shadow, shares.false_light].map(percent);
         rows.push([about.title.into(), about.version.into()].into_iter().chain(numbers).chain(shares_of).collect());
         found.push((engine, shares));
-        let picture = set.draw(cx, &ByEngine { map: &set.map, engine }, &frame);
+        let picture = set.draw(cx, &ByEngine { map: set.map(), engine }, &frame);
         let name = engine.name();
         made.panels.push(shadow_panel(name, about.title, &picture).against("truth"));
         let (own, exact) = (&picture.shadow[0], &truth.shadow[0]);

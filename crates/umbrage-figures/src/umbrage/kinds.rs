@@ -159,10 +159,9 @@ fn measured(cx: &Context, group: &Group, kind: &'static str, make: Make, made: &
     }
     // The ray-traced truth is the same for every size of map.
     let ray = judge.error(&judge.set.truth_points(cx, &Frame::CENTRES)).rms;
-    let several =
-        [Frame::CENTRES, SAMPLED].iter().map(|frame| Ok(judge.error(&judge.by(cx, AUTO.0, frame)?.0).several));
-    let several = several.collect::<anyhow::Result<Vec<f64>>>()?;
-    Ok(Found { kind, ray, noise: judge.noise(), several: [several[0], several[1]], columns })
+    let sampled = judge.error(&judge.by(cx, AUTO.0, &SAMPLED)?.0);
+    let several = [columns[group.column(AUTO)].0.several, sampled.several];
+    Ok(Found { kind, ray, noise: judge.noise(), several, columns })
 }
 
 /// The errors scene by scene and their means; of [`AUTO`] what is wrong and the bytes come last.

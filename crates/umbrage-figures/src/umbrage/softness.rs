@@ -6,7 +6,7 @@ use crate::stage::penumbra::{Edge, axial, burley_max};
 use crate::stage::set::Set;
 use glam::{DVec3, UVec2, Vec3};
 use umbrage_oracle::metrics::Profile;
-use umbrage_oracle::{Geometry, predict};
+use umbrage_oracle::predict;
 use umbrage_render::Frame;
 use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::{Made, Measure};
@@ -42,10 +42,6 @@ fn rms(a: &Profile, b: &Profile) -> f64 {
     (squares / a.points.len().max(1) as f64).sqrt()
 }
 
-fn bound(cx: &Context, set: &Set, recipe: &str) -> anyhow::Result<Box<dyn Shadow>> {
-    set.shadow(cx, recipe)
-}
-
 /// A size of the light under one recipe: widths and error against rays.
 struct Found {
     width: f64,
@@ -53,16 +49,15 @@ struct Found {
     error: f64,
 }
 
-fn measure(cx: &Context, set: &Set, recipe: &str, edge: &Edge, exact: &Profile) -> anyhow::Result<Found> {
-    let found = edge.profile(cx, &*bound(cx, set, recipe)?);
+fn measure(cx: &Context, shadow: &dyn Shadow, edge: &Edge, exact: &Profile) -> Found {
+    let found = edge.profile(cx, shadow);
     let width = |profile: &Profile| profile.width().unwrap_or(f64::NAN);
-    Ok(Found { width: width(&found), exact: width(exact), error: rms(&found, exact) })
+    Found { width: width(&found), exact: width(exact), error: rms(&found, exact) }
 }
 
 /// An edge as rays to the whole light see it.
 fn by_rays(cx: &Context, set: &Set, edge: &Edge, light: f64) -> Profile {
-    let geometry = Geometry::new(&set.scene, &set.scene.camera);
-    edge.profile(cx, &set.disc_light(cx, &geometry, light))
+    edge.profile(cx, &set.disc_light(cx, &set.geometry(), light))
 }
 
 fn softness(cx: &Context) -> anyhow::Result<Made> {
@@ -98,11 +93,16 @@ fn softness(cx: &Context) -> anyhow::Result<Made> {
         let exact = by_rays(cx, &set, &edge, radius);
         (edge, exact)
     });
-    let mut made = Made::default();
+    let (mut made, mut shown) = (Made::default(), Vec::new());
     for (index, (name, recipe)) in recipes.iter().enumerate() {
-        let found =
-            RADII.iter().zip(&lamps).map(|(&radius, (edge, exact))| measure(cx, &set, &recipe(radius), edge, exact));
-        let found = found.collect::<anyhow::Result<Vec<Found>>>()?;
+        let mut found = Vec::new();
+        for (&radius, (edge, exact)) in RADII.iter().zip(&lamps) {
+            let shadow = set.shadow(cx, &recipe(radius))?;
+            found.push(measure(cx, &*shadow, edge, exact));
+            if radius == SET {
+                shown.push(shadow);
+            }
+        }
         let line = |value: &dyn Fn(&Found) -> f64| {
             RADII.iter().zip(&found).map(|(&radius, found)| (radius, value(found))).collect::<Vec<_>>()
         };
@@ -113,7 +113,8 @@ fn softness(cx: &Context) -> anyhow::Result<Made> {
             }
             // The recipe as one first types it, which searches from the light's near plane.
             let (edge, exact) = &lamps[3];
-            let plain = measure(cx, &set, &format!("burley,light={}", RADII[3]), edge, exact)?;
+            let plain = set.shadow(cx, &format!("burley,light={}", RADII[3]))?;
+            let plain = measure(cx, &*plain, edge, exact);
             let name = format!("lamp of radius {}, nothing else told: width over the area light's", RADII[3]);
             made.measures.push(near(&name, &plain));
             made.measures.push(Measure::info(
@@ -137,9 +138,11 @@ fn softness(cx: &Context) -> anyhow::Result<Made> {
     sky(cx, &mut made)?;
     made.plots = vec![("width".into(), widths.svg()), ("error".into(), errors.svg())];
     let truth = set.truth_disc(cx, &Frame::CENTRES, SET);
-    for (index, stem) in ["light", "burley", "fernando", "constant", "auto"].into_iter().enumerate() {
-        let (name, recipe) = (recipes[index].0, recipes[index].1(SET));
-        let picture = set.by(cx, &recipe, &Frame::CENTRES)?;
+    for ((name, recipe), (stem, shadow)) in
+        recipes.iter().zip(["light", "burley", "fernando", "constant", "auto"].into_iter().zip(&shown))
+    {
+        let recipe = recipe(SET);
+        let picture = set.draw(cx, &**shadow, &Frame::CENTRES);
         made.panels.push(shadow_panel(stem, name, &picture).with("recipe", recipe).against("truth"));
         made.panels.push(error_panel(
             &format!("{stem}-error"),
@@ -170,7 +173,7 @@ fn sky(cx: &Context, made: &mut Made) -> anyhow::Result<()> {
         let whole = 2.0 * predict::sky_penumbra_half_width(tangent.atan(), HEIGHT);
         let recipe = format!("burley,light={tangent},nearest=90,search=64,blur=64");
         let edge = edge(whole);
-        let found = measure(cx, &set, &recipe, &edge, &by_rays(cx, &set, &edge, tangent))?;
+        let found = measure(cx, &*set.shadow(cx, &recipe)?, &edge, &by_rays(cx, &set, &edge, tangent));
         made.measures.push(near(&format!("sky of tangent {tangent}: width over the area light's"), &found));
     }
     Ok(())

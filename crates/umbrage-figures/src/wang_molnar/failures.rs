@@ -232,7 +232,7 @@ fn plane_errors(set: &Set, seen: &Picture) -> Vec<(f64, f64)> {
     const HALVINGS: usize = 5;
     let mut alone: Scene = set.scene.clone();
     alone.objects.truncate(1);
-    let ball = Set::new(alone, 16, set.map.view().size().x).map;
+    let ball = Set::new(alone, 16, set.map().view().size().x).map().clone();
     let view = ball.view();
     let mut largest = [0.0f64; HALVINGS];
     for i in (0..seen.object.len()).filter(|&i| seen.object[i] == BALL && seen.facing[0][i] > 0.0) {

@@ -106,7 +106,7 @@ fn listing(cx: &Context) -> anyhow::Result<Made> {
     let head = ["nearby depths 5, 5, 9, 9", "z camera", "as printed", "as printed, whole numbers", "corrected"];
     let v55 = Table { name: "V55".into(), head: head.map(String::from).to_vec(), rows };
     let set = sheets(cx)?;
-    let printed = set.draw(cx, &Printed(&set.map), &Frame::CENTRES);
+    let printed = set.draw(cx, &Printed(set.map()), &Frame::CENTRES);
     let right = set.by(cx, "wang-molnar94", &Frame::CENTRES)?;
     let (points, truth) = (set.truth_points(cx, &Frame::CENTRES), set.truth(cx));
     let border = cx.pick(6, 3);
@@ -155,10 +155,10 @@ fn listing(cx: &Context) -> anyhow::Result<Made> {
 
 /// The scene of planar sheets, its map of second surfaces.
 fn sheets(cx: &Context) -> anyhow::Result<Set> {
-    let mut set = Set::new(gallery::sheets(false), cx.pick(512, 256), cx.pick(512, 256));
-    let light = *set.map.view();
-    set.map = bake(&light, Soup::casters(&set.scene, &light).triangles(), &BackFace, Cull::Front).map;
-    Ok(set)
+    let set = Set::new(gallery::sheets(false), cx.pick(512, 256), cx.pick(512, 256));
+    let light = set.scene.lights[0].view;
+    let map = bake(&light, Soup::casters(&set.scene, &light).triangles(), &BackFace, Cull::Front).map;
+    Ok(set.with_map(map))
 }
 
 /// E-M1 to E-M11: what is wrong, and what the listing returns before and after correction where a number shows it.

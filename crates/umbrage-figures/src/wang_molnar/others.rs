@@ -117,7 +117,7 @@ fn tags(cx: &Context) -> anyhow::Result<Made> {
     let truth = set.truth_points(cx, &Frame::CENTRES);
     let (objects, polygons) = (tagged(&set.scene), tagged(&pieces));
     let by_object = set.draw(cx, &objects, &Frame::CENTRES);
-    let of_pieces = Set { scene: pieces, map: set.map.clone() };
+    let of_pieces = Set::of(pieces);
     let by_polygon = of_pieces.draw(cx, &polygons, &Frame::CENTRES);
     let by_second = set.by(cx, "wang-molnar94", &Frame::CENTRES)?;
     let border = cx.pick(4, 3);

@@ -130,8 +130,8 @@ fn second(cx: &Context) -> anyhow::Result<Made> {
     let count = |mask: &[bool]| mask.iter().filter(|inside| **inside).count() as f64;
     let panels = vec![
         Panel::rgb("full", "Solids that overlap", by[0].size, by[0].colour.clone()),
-        shadow_panel("two-buffers", "Two buffers", &by[0]).with("map", set.map.view().size().x).against("truth"),
-        shadow_panel("back-faces", "Back faces", &by[1]).with("map", set.map.view().size().x).against("truth"),
+        shadow_panel("two-buffers", "Two buffers", &by[0]).with("map", set.map().view().size().x).against("truth"),
+        shadow_panel("back-faces", "Back faces", &by[1]).with("map", set.map().view().size().x).against("truth"),
         truth_panel(&points),
         error_panel("error", "Two buffers minus truth", points.size, &by[0].shadow[0], &points.shadow[0]),
         error_panel("apart", "Two buffers minus back faces", points.size, &by[0].shadow[0], &by[1].shadow[0]),
@@ -238,7 +238,7 @@ fn quantile(values: &[f64], share: f64) -> f64 {
 
 fn decision(cx: &Context) -> anyhow::Result<Made> {
     let set = Set::new(gallery::spot_room(), cx.pick(512, 256), 256);
-    let light = *set.map.view();
+    let light = *set.map().view();
     let soup = Soup::casters(&set.scene, &light);
     let maps = [
         ("first", bake(&light, soup.triangles(), &First, Cull::None).map),

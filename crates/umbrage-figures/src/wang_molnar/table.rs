@@ -109,7 +109,7 @@ impl Foot {
 
     pub fn first(&self, cx: &Context, bias: f64) -> anyhow::Result<Found> {
         let recipe: Recipe = first(bias).parse()?;
-        Ok(self.judge(cx, &*recipe.bind(&self.set.map, cx.storage)?))
+        Ok(self.judge(cx, &*recipe.bind(self.set.map(), cx.storage)?))
     }
 
     pub fn second(&self, cx: &Context) -> anyhow::Result<Found> {

@@ -139,10 +139,11 @@ fn highlights(
     image: &[f32],
     density: f32,
 ) -> (f64, f64, f64) {
-    let mut matt = Set { scene: set.scene.clone(), map: set.map.clone() };
-    for object in &mut matt.scene.objects {
+    let mut scene = set.scene.clone();
+    for object in &mut scene.objects {
         object.material.specular = Vec3::ZERO;
     }
+    let matt = Set::of(scene);
     let per_sample = [set, &matt].map(|set| set.shoot(cx, faithful(4.0), &Frame::CENTRES).colour);
     let plain = matt.plain(cx, &Frame::CENTRES).colour;
     let afterwards = [&shaded.colour, &plain].map(|colour| darken(colour, image, density));

@@ -91,7 +91,7 @@ fn reduced_bias(cx: &Context) -> anyhow::Result<Made> {
     );
     made.measures.push(Measure::info("the terminator in truth", offset(&exact.shadow[0]), "R"));
     // The negative control: depths smoothed before they are looked up.
-    let smooth = Arc::new(Tiled::from(&bandlimit(&Raw::copy_of(&set.map), 1)));
+    let smooth = Arc::new(Tiled::from(&bandlimit(&Raw::copy_of(set.map()), 1)));
     let controlled = set.shoot_map(cx, reduced(1.0), &smooth, &Frame::CENTRES);
     let unfiltered = value(metrics::false_shadow(&set.shoot(cx, reduced(1.0), &Frame::CENTRES).shadow[0], &lit_all));
     let controlled = value(metrics::false_shadow(&controlled.shadow[0], &lit_all));
@@ -103,7 +103,7 @@ fn reduced_bias(cx: &Context) -> anyhow::Result<Made> {
     ));
     limb(cx, &set, 100, &mut made)?;
     // The paper's wording can be read both ways.
-    let set_80 = Set::new(gallery::four_spheres_lit_from(80.0), set.scene.camera.size().x, set.map.view().size().x);
+    let set_80 = Set::new(gallery::four_spheres_lit_from(80.0), set.scene.camera.size().x, set.map().view().size().x);
     limb(cx, &set_80, 80, &mut made)?;
     let one = post(cx, &set, &centres, reduced(1.0)).shadow;
     let loose = post(cx, &set, &snapped, reduced(1.0)).shadow;
@@ -263,7 +263,7 @@ fn dither(cx: &Context) -> anyhow::Result<Made> {
 
 /// Pixels more than two texels, the width of the interpolation, from a silhouette in the light's view.
 fn away_from_silhouettes(set: &Set, truth: &Picture) -> Vec<bool> {
-    let light = set.map.view();
+    let light = set.map().view();
     let jump = 0.5 / (light.far() - light.near()) as f32;
     let smooth = |at: DVec3| {
         let eye = light.world_to_eye().transform_point3(at);
@@ -271,7 +271,7 @@ fn away_from_silhouettes(set: &Set, truth: &Picture) -> Vec<bool> {
         let window = TexelRect::new(texel - 2, texel + 3);
         let (low, high) = window
             .texels()
-            .map(|texel| set.map.depth(texel))
+            .map(|texel| set.map().depth(texel))
             .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
         high - low < jump
     };

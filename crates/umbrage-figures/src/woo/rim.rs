@@ -73,8 +73,9 @@ fn rim(cx: &Context) -> anyhow::Result<Made> {
         let set = Set::new(covered_spot(rules)?, cx.pick(512, 256), 256);
         let method = set.shadow(cx, "woo92,res-factor=3,min-size=3,samples=256")?;
         // The board is in the map and not in the picture, which shows what lies under it.
-        let mut floor = Set { scene: set.scene.clone(), map: set.map.clone() };
-        floor.scene.objects.pop();
+        let mut scene = set.scene.clone();
+        scene.objects.pop();
+        let floor = Set::of(scene);
         let picture = floor.draw(cx, &*method, &Frame::CENTRES);
         panels.push(colour_panel(name, caption, picture.size, &picture.colour).with("board", "cut away"));
         let enlarged = format!("{caption}, the rim in the board's shadow");

@@ -231,6 +231,35 @@ fn a_batch_is_its_points() {
 }
 
 #[test]
+fn a_batch_of_points_far_apart_is_its_points() {
+    let key = Key::new(8, 0, 0);
+    let ball = |i: u32| {
+        let at = [0, 1, 2].map(|axis| f64::from(key.signed(i, axis)) * 6.0);
+        sphere(DVec3::from(at), 0.3 + 0.5 * f64::from(key.unit(i, 3)), 12, i)
+    };
+    let balls = 60;
+    let faces: Vec<Face> = (0..balls).flat_map(ball).collect();
+    // Neighbours in the list lie on different bodies, and on both sides of them.
+    let points: Vec<SurfacePoint> = (0..2000u32)
+        .map(|i| {
+            let face = &faces[(i as usize * 977) % faces.len()];
+            let (at, normal) = (point_of(face, key, i), normal(face));
+            SurfacePoint { region: i, object: face.object, ..SurfacePoint::at(at, normal.as_vec3()) }
+        })
+        .collect();
+    let geometry = Geometry::from_faces(faces, vec![SOLID; balls as usize]);
+    for light in [DVec4::new(0.5, 9.0, -0.2, 1.0), DVec4::new(0.0, 1.0, 0.0, 0.0), DVec4::new(0.3, 0.5, -0.8, 0.0)] {
+        let truth = RayCast::everywhere(&geometry, light);
+        let mut out = vec![f32::NAN; points.len()];
+        truth.fractions(&points, key, &mut out);
+        assert!(out.contains(&0.0) && out.contains(&1.0), "{light}");
+        for (point, shadow) in points.iter().zip(out) {
+            assert_eq!(truth.at(point), shadow, "{light}: {point:?}");
+        }
+    }
+}
+
+#[test]
 fn v46c_d19_lit_share_of_a_disc() {
     let geometry = Geometry::from_faces(sphere(DVec3::ZERO, 1.0, 256, 0), vec![SOLID]);
     for degrees in [80.0f64, 100.0] {

@@ -3,7 +3,7 @@
 use glam::{DVec3, UVec2, Vec3};
 use std::sync::Mutex;
 use umbrage_plane::{SurfacePoint, View};
-use umbrage_render::{Frame, NOTHING, picture, picture_where};
+use umbrage_render::{Frame, NOTHING, Sight, picture, picture_where};
 use umbrage_sample::Key;
 use umbrage_scene::{Light, Material, Mesh, Object, Scene, gallery};
 use umbrage_shadow::Shadow;
@@ -96,6 +96,18 @@ fn pixels_that_are_wanted_are_the_same_in_a_part_of_the_picture() {
         } else {
             assert_eq!((some.colour[i], some.object[i]), (scene.background, NOTHING));
         }
+    }
+}
+
+#[test]
+fn a_sight_gives_the_pictures_of_its_scene() {
+    let (scene, frame) = (boards(), Frame::default());
+    let sight = Sight::new(&scene, &frame);
+    for shadows in [&[][..], &[&Asked::default() as &dyn Shadow]] {
+        let (kept, anew) = (sight.picture(&scene, shadows), picture(&scene, shadows, &frame));
+        assert_eq!((&kept.colour, &kept.shadow, &kept.facing), (&anew.colour, &anew.shadow, &anew.facing));
+        assert_eq!((&kept.object, &kept.share, &kept.depth), (&anew.object, &anew.share, &anew.depth));
+        assert_eq!((kept.fragments, kept.passing, kept.regions), (anew.fragments, anew.passing, anew.regions));
     }
 }
 
