@@ -1,6 +1,7 @@
 //! Measures ours beside peers and makes a page of it: builds the program of `umbrage-bench`, runs it, and hands its rows on.
 
 mod counts;
+mod limits;
 mod page;
 mod program;
 mod rows;

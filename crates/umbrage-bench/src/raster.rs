@@ -5,8 +5,8 @@ use crate::peers::software::Software;
 use crate::scene::{Scene, Segments};
 use umbrage_bake::{Baked, BakedFacets, Refinement, bake, bake_facets, bake_refined};
 use umbrage_depth::{First, Midpoint, Raw, Second};
-use umbrage_plane::View;
-use umbrage_raster::{Cull, Triangle};
+use umbrage_plane::{TexelRect, View};
+use umbrage_raster::{Bins, Cull, Triangle};
 
 /// A mesh, the view that draws it, and how much is drawn.
 #[derive(Debug)]
@@ -41,6 +41,12 @@ impl Workload {
 
     fn straight(name: &'static str, side: u32, mesh: Mesh, covered: Covered) -> Self {
         Self::new(name, side, &straight(side), mesh, covered)
+    }
+
+    /// Its triangles set up and sorted into tiles, and nothing drawn.
+    pub fn binned(&self) -> Bins {
+        let whole = TexelRect::of_size(self.view.size());
+        Bins::new(&self.view, whole, Cull::None, self.casters.iter().copied())
     }
 
     /// Eight layers, the farthest first.

@@ -1,5 +1,6 @@
 //! The report as a Markdown table and as bars.
 
+use super::limits;
 use super::rows::{Goal, Report, Row};
 use std::fmt::Write;
 
@@ -63,6 +64,12 @@ pub fn markdown(facts: &Facts, columns: &[Column]) -> String {
     let judged = columns.iter().flat_map(|column| &column.report.rows).filter_map(Row::met);
     let (met, missed): (Vec<bool>, Vec<bool>) = judged.partition(|met| *met);
     let _ = writeln!(text, "\n{} goals met, {} missed.", met.len(), missed.len());
+    for Column { flags, report } in columns {
+        let lines: Vec<String> = report.rows.iter().filter_map(|row| limits::line(row, &report.rows)).collect();
+        if !lines.is_empty() {
+            let _ = writeln!(text, "\n## What holds back the missed ones, {flags}\n\n{}", lines.join("\n"));
+        }
+    }
     text
 }
 
@@ -242,7 +249,8 @@ mod tests {
         assert_eq!(text.matches("| a < b | default flags |").count(), 3);
         assert_eq!(text.matches("| a < b | native |").count(), 3);
         assert!(text.contains("| 2.00 | euc | 20.0 | 10.0 times as fast | ≥ 8 times as fast | met |"), "{text}");
-        assert!(text.ends_with("\n2 goals met, 2 missed.\n"), "{text}");
+        assert!(text.contains("\n2 goals met, 2 missed.\n"), "{text}");
+        assert!(text.contains("\n## What holds back the missed ones, native\n\n* a < b, beside euc: "), "{text}");
     }
 
     #[test]

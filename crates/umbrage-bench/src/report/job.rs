@@ -8,6 +8,7 @@ use crate::peers::rays::Tree;
 use crate::raster::{first, refined};
 use crate::scene::{Scene, Segments};
 use crate::timing::{medians, processor_seconds};
+use std::hint::black_box;
 use umbrage_shadow::{DualPlane, Shadow, ShadowMap};
 
 /// Both sizes of the scene.
@@ -20,7 +21,7 @@ pub fn whole(settings: Settings) -> Vec<Row> {
     medium.into_iter().chain(large).collect()
 }
 
-fn of(settings: Settings, name: &str, segments: Segments, side: u32) -> [Row; 4] {
+fn of(settings: Settings, name: &str, segments: Segments, side: u32) -> [Row; 6] {
     let scene = Scene::new(segments, settings.picture());
     let (mesh, points, view, light) = (&scene.mesh, &scene.points, Scene::view(side), Scene::disc());
     let casters = mesh.casters();
@@ -39,6 +40,8 @@ fn of(settings: Settings, name: &str, segments: Segments, side: u32) -> [Row; 4]
             &mut || Tree::of_two(mesh).one_ray(points, light, two_out),
             &mut || Tree::of_eight(mesh).one_ray(points, light, eight_out),
             &mut || Tree::of_eight(mesh).sixteen_rays(points, light, sixteen_out),
+            &mut || drop(black_box(first(&view, &casters))),
+            &mut || drop(black_box(refined(&view, &casters))),
         ],
     );
     assert_eq!(mean(&outs[2]), mean(&outs[3]), "both trees hold the same triangles");
@@ -63,5 +66,7 @@ fn of(settings: Settings, name: &str, segments: Segments, side: u32) -> [Row; 4]
         row("bake and pcf", taken[0], "obvhs, 16 rays", taken[4], Goal::Faster(60.0)),
         row("bake and auto", taken[1], "obvhs, 1 ray", one, Goal::Free),
         row("bake and auto", taken[1], "obvhs, 16 rays", taken[4], Goal::Faster(20.0)),
+        row("bake alone", taken[5], "bake and pcf", taken[0], Goal::Free),
+        row("bake for auto alone", taken[6], "bake and auto", taken[1], Goal::Free),
     ]
 }

@@ -45,7 +45,7 @@ pub fn raster(settings: Settings, side: u32) -> Vec<Row> {
 }
 
 /// One mesh beside both peers.
-fn beside(settings: Settings, workload: &Workload, goals: &Goals) -> [Row; 2] {
+fn beside(settings: Settings, workload: &Workload, goals: &Goals) -> [Row; 3] {
     let baked = workload.checked();
     let layers = workload.limit_layers(&baked);
     let mut software = Software::new(&workload.view);
@@ -55,22 +55,34 @@ fn beside(settings: Settings, workload: &Workload, goals: &Goals) -> [Row; 2] {
     let taken = medians(
         settings.rounds(),
         processor_seconds,
-        &mut [&mut || drop(black_box(workload.first())), &mut || software.draw(black_box(&workload.mesh)), &mut || {
-            clear_and_min(&mut buffer, layers);
-        }],
+        &mut [
+            &mut || drop(black_box(workload.first())),
+            &mut || software.draw(black_box(&workload.mesh)),
+            &mut || {
+                clear_and_min(&mut buffer, layers);
+            },
+            &mut || drop(black_box(workload.binned())),
+        ],
     );
-    let row = |peer: String, theirs: f64, goal| Row {
+    let row = |part: &str, ours: f64, peer: String, theirs: f64, goal| Row {
         group: "pass 1",
-        what: format!("{} at {}²", workload.name, workload.side),
+        what: format!("{}{part} at {}²", workload.name, workload.side),
         unit: "ms",
-        ours: taken[0] * 1e3,
+        ours: ours * 1e3,
         peer,
         theirs: theirs * 1e3,
         goal,
     };
     [
-        row("euc".into(), taken[1], goals.software),
-        row(format!("memory, {layers} layer{}", if layers == 1 { "" } else { "s" }), taken[2], goals.limit),
+        row("", taken[0], "euc".into(), taken[1], goals.software),
+        row(
+            "",
+            taken[0],
+            format!("memory, {layers} layer{}", if layers == 1 { "" } else { "s" }),
+            taken[2],
+            goals.limit,
+        ),
+        row(", set up and binned alone", taken[3], "all of it".into(), taken[0], Goal::Free),
     ]
 }
 
