@@ -13,8 +13,8 @@ use umbrage_shadow::{OccluderFalloff, OffsetGrowth, Radius, Spread, VirtualWhen}
 
 const AUTO: &[PresetName] = &[PresetName::Auto];
 
-/// These presets and those of engines.
-macro_rules! and_engines {
+/// These presets and those of engines that are percentage closer in a few texels.
+macro_rules! and_closer {
     ($($preset:ident),+ $(,)?) => {
         &[
             $(PresetName::$preset,)+
@@ -29,6 +29,13 @@ macro_rules! and_engines {
             PresetName::HdrpPcf5,
             PresetName::HdrpPcf7,
         ]
+    };
+}
+
+/// These presets and those of engines.
+macro_rules! and_engines {
+    ($($preset:ident),+ $(,)?) => {
+        and_closer![$($preset,)+ ThreeVsm]
     };
 }
 
@@ -48,12 +55,12 @@ const STORING: &[PresetName] = and_engines![
     Evsm4,
     Msm,
 ];
-const CLOSER: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92];
+const CLOSER: &[PresetName] = and_closer![Reeves87, Reeves87Recommended, Woo92];
 const SOFT: &[PresetName] = &[PresetName::Burley, PresetName::Fernando];
 const COMPARED: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92, Burley, Fernando];
 const PLANES: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92, WangMolnar94, Burley, Fernando];
-const REGIONS: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92, WangMolnar94];
-const FACTORS: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92, WangMolnar94, Ordinary];
+const REGIONS: &[PresetName] = and_closer![Reeves87, Reeves87Recommended, Woo92, WangMolnar94];
+const FACTORS: &[PresetName] = and_closer![Reeves87, Reeves87Recommended, Woo92, WangMolnar94, Ordinary];
 const CONDITIONAL: &[PresetName] = &[PresetName::WangMolnar94];
 const WILLIAMS: &[PresetName] = &[PresetName::Williams78];
 const SINGLE: &[PresetName] = &[
@@ -66,9 +73,12 @@ const SINGLE: &[PresetName] = &[
     PresetName::Evsm4,
     PresetName::Msm,
 ];
-const MOMENTS: &[PresetName] =
+const PREFILTERED: &[PresetName] =
     &[PresetName::Vsm, PresetName::Esm, PresetName::Evsm2, PresetName::Evsm4, PresetName::Msm];
-const VARIANCE: &[PresetName] = &[PresetName::Vsm, PresetName::Evsm2, PresetName::Evsm4];
+const MOMENTS: &[PresetName] =
+    &[PresetName::Vsm, PresetName::Esm, PresetName::Evsm2, PresetName::Evsm4, PresetName::Msm, PresetName::ThreeVsm];
+const VARIANCE: &[PresetName] = &[PresetName::Vsm, PresetName::Evsm2, PresetName::Evsm4, PresetName::ThreeVsm];
+const DEVIATION: &[PresetName] = &[PresetName::ThreeVsm];
 
 /// A field that is one value of the recipe.
 macro_rules! plain {
@@ -692,12 +702,36 @@ pub const FIELDS: &[Field] = &[
         "GPU Gems 3, ch. 8"
     ),
     plain!(
-        "prefilter",
+        "lit-from",
         MOMENTS,
+        SHARE,
+        |values| values.moments.filter.lit_from,
+        "visibility from which all counts as lit; what is between the fraction that is cut off and this is stretched",
+        "three.js r187"
+    ),
+    plain!(
+        "prefilter",
+        PREFILTERED,
         Kind::UpTo(64.0),
         |values| values.moments.prefilter,
         "standard deviation of the blur of the map, texels",
         ""
+    ),
+    plain!(
+        "prefilter",
+        DEVIATION,
+        Kind::UpTo(64.0),
+        |values| values.moments.prefilter,
+        "how far the box by which the map is blurred reaches to each side, texels (`radius`)",
+        "three.js r187"
+    ),
+    plain!(
+        "blur-samples",
+        DEVIATION,
+        Kind::Whole(Moments::MOST_SAMPLES),
+        |values| values.moments.samples,
+        "samples along a row and along a column of that box (`blurSamples`)",
+        "three.js r187"
     ),
     plain!(
         "least-variance",

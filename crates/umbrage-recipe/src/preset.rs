@@ -49,6 +49,8 @@ pub enum PresetName {
     Msm,
     /// three.js, `PCFShadowMap`: five bilinear comparisons on a disc, over back faces.
     ThreePcf,
+    /// three.js, `VSMShadowMap`: a mean and a deviation of a box of texels, and Chebyshev's inequality.
+    ThreeVsm,
     /// Babylon.js, `FILTER_NONE`: the nearest texel.
     BabylonNone,
     /// Babylon.js, `FILTER_PCF` of high quality: Castaño's 5 × 5 texels.
@@ -71,7 +73,7 @@ pub enum PresetName {
 
 impl PresetName {
     /// All of them.
-    pub const ALL: [Self; 24] = [
+    pub const ALL: [Self; 25] = [
         Self::Auto,
         Self::Williams78,
         Self::Reeves87,
@@ -87,6 +89,7 @@ impl PresetName {
         Self::Evsm4,
         Self::Msm,
         Self::ThreePcf,
+        Self::ThreeVsm,
         Self::BabylonNone,
         Self::BabylonPcf,
         Self::FilamentPcf,
@@ -99,8 +102,9 @@ impl PresetName {
     ];
 
     /// The defaults of engines among them.
-    pub const ENGINES: [Self; 10] = [
+    pub const ENGINES: [Self; 11] = [
         Self::ThreePcf,
+        Self::ThreeVsm,
         Self::BabylonNone,
         Self::BabylonPcf,
         Self::FilamentPcf,
@@ -131,6 +135,7 @@ impl PresetName {
             Self::Evsm4 => "evsm4",
             Self::Msm => "msm",
             Self::ThreePcf => "three-pcf",
+            Self::ThreeVsm => "three-vsm",
             Self::BabylonNone => "babylon-none",
             Self::BabylonPcf => "babylon-pcf",
             Self::FilamentPcf => "filament-pcf",
@@ -162,6 +167,7 @@ impl PresetName {
             Self::Evsm4 => "the same of four channels",
             Self::Msm => "moment shadow maps (Peters & Klein 2015)",
             Self::ThreePcf => "three.js, PCFShadowMap: five bilinear comparisons on a disc, over back faces",
+            Self::ThreeVsm => "three.js, VSMShadowMap: mean and deviation of a box of texels, Chebyshev's inequality",
             Self::BabylonNone => "Babylon.js, FILTER_NONE: the nearest texel",
             Self::BabylonPcf => "Babylon.js, FILTER_PCF, high quality: Castaño's 5 x 5 texels",
             Self::FilamentPcf => "Filament, PCF: Castaño's 3 x 3 texels",
@@ -186,6 +192,8 @@ impl PresetName {
         use PatternName::{AreaTent, Castano5, Centre, Tent, Vogel};
         let (bias, pattern, half, samples) = match self {
             Self::ThreePcf => (Bias::Three, Vogel, 2.0, 5),
+            // Looked up once, in a map that is filtered beforehand.
+            Self::ThreeVsm => (Bias::Three, Centre, 0.0, 1),
             Self::BabylonNone => (Bias::Babylon, Centre, 0.0, 1),
             Self::BabylonPcf => (Bias::BabylonPcf, Castano5, 3.0, 1),
             Self::FilamentPcf => (Bias::Filament, Tent, 2.0, 1),
@@ -198,6 +206,11 @@ impl PresetName {
             _ => return None,
         };
         Some(ByEngine { bias, pattern, half, samples })
+    }
+
+    /// Whether its maps are filtered before they are looked up.
+    pub(crate) const fn is_prefiltered(self) -> bool {
+        matches!(self, Self::Vsm | Self::Esm | Self::Evsm2 | Self::Evsm4 | Self::Msm | Self::ThreeVsm)
     }
 
     /// The one with this [`name`](Self::name); `None` for any other text.
@@ -226,7 +239,8 @@ impl PresetName {
             Self::Msm => presets::msm().expects,
             // The faces with which single-sided materials cast there.
             Self::ThreePcf => &[Stored::BackFace],
-            Self::BabylonNone
+            Self::ThreeVsm
+            | Self::BabylonNone
             | Self::BabylonPcf
             | Self::FilamentPcf
             | Self::BevyGaussian

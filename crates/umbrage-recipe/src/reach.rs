@@ -131,9 +131,9 @@ impl Recipe {
             PresetName::Burley | PresetName::Fernando => {
                 scaled(1.0, 0.0).max(widest(values.softness(), view, receiver)).min(most)
             }
-            PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
+            preset if preset.is_prefiltered() => {
                 // The coarser of two levels has texels up to twice the footprint's width, of which the next but one still counts.
-                scaled(4.0, values.moments.reach())
+                scaled(4.0, values.moments.reach(preset))
             }
             _ => scaled(values.res_factor, values.min_size),
         };

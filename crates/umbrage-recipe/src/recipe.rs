@@ -32,6 +32,7 @@ use umbrage_shadow::Shadow;
 /// | preset | stored | kernel | bias | sources read |
 /// |---|---|---|---|---|
 /// | `three-pcf` | back-face | [`Vogel`](umbrage_sample::Vogel), 5 samples, radius 1 | `three` | three.js r187, `shadowmap_pars_fragment.glsl.js` |
+/// | `three-vsm` | first, filtered beforehand | mean and deviation of a box of 3 × 3 texels, 8 samples a side; light up to 0.3 is none, from 0.95 all | `three` | three.js r187, `vsm.glsl.js`, `WebGLShadowMap.js` and the same |
 /// | `babylon-none` | first | nearest texel | `babylon` | Babylon.js 9.35, `shadowsFragmentFunctions.js` |
 /// | `babylon-pcf` | first | [`Castano`](umbrage_sample::Castano), 5 × 5 | `babylon-pcf` | the same |
 /// | `filament-pcf` | first | [`Tent`](umbrage_sample::Tent) of 2 texels, which is Castaño's 3 × 3 | `filament` | Filament, `surface_shadowing.fs` |
@@ -43,8 +44,7 @@ use umbrage_shadow::Shadow;
 ///
 /// Where a unit of the depth format is left open, the least is taken. Normals are geometric, where engines may take shading normals. Cascades, borders of
 /// atlases and
-/// fades at a map's end are not in them. HDRP's PCSS is not here: its filter, the nearest blocker of a cone of samples, is different from `fernando`; nor is
-/// `VSMShadowMap` of three.js, whose steps of a probability differ from `vsm`.
+/// fades at a map's end are not in them. HDRP's PCSS is not here: its filter, the nearest blocker of a cone of samples, is different from `fernando`.
 ///
 /// Units: `t` texels, `w` world units, `s` depth steps, `m` fractions of the range from near to far as screen depth has it, `%` of the map's sides.
 ///
@@ -124,9 +124,7 @@ impl Recipe {
         match self.preset {
             PresetName::Auto | PresetName::Williams78 | PresetName::Ordinary => 0.0,
             PresetName::Burley | PresetName::Fernando => 0.5,
-            PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
-                self.values.moments.reach()
-            }
+            preset if preset.is_prefiltered() => self.values.moments.reach(preset),
             _ => self.values.min_size,
         }
     }

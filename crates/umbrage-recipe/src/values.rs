@@ -150,9 +150,9 @@ impl Values {
                 Self { depth: DepthName::Constant, biased, ..parts.soft(&fernando) }
             }
             PresetName::Ordinary => Self { biased: Biased::constant(Bias::ZERO), res_factor: 1.0, ..parts },
-            PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
+            preset if preset.is_prefiltered() => {
                 let moments = MomentValues::of(preset);
-                Self { biased: Biased::constant(moments.filter.bias), moments, ..parts }
+                Self { biased: moments.filter.depth, moments, ..parts }
             }
             _ => parts,
         }
@@ -165,7 +165,8 @@ impl Values {
         let jittered = self.jittered.with_num_samples(samples);
         let biased = Biased::constant(Bias::ZERO);
         let depth = DepthName::Engine(bias);
-        Self { rule, pattern, jittered, res_factor: 0.0, min_size: half, depth, biased, ..self }
+        let moments = MomentValues::of(preset);
+        Self { rule, pattern, jittered, res_factor: 0.0, min_size: half, depth, biased, moments, ..self }
     }
 
     /// The values of presets that do not set others.
@@ -284,9 +285,9 @@ impl Values {
             PresetName::Burley | PresetName::Fernando => self.check_soft(given)?,
             PresetName::Auto => return self.check_auto(),
             PresetName::Williams78 | PresetName::WangMolnar94 | PresetName::Ordinary => return Ok(()),
-            PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
-                return Ok(());
-            }
+            // They compare more than a bias there.
+            PresetName::ThreeVsm => {}
+            preset if preset.is_prefiltered() => return Ok(()),
             _ => self.check_closer()?,
         }
         self.check_depth()

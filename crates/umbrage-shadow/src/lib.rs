@@ -47,6 +47,7 @@ mod mean;
 pub mod presets;
 mod probe;
 mod query;
+mod settled;
 mod surfaces;
 
 pub use depths::{

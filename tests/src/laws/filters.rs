@@ -97,5 +97,7 @@ pub fn prefiltered() -> Vec<Subject> {
         Subject::new("evsm2", presets::evsm2().filter).through(|map| with(Moments::EVSM2, map)),
         Subject::new("evsm4", presets::evsm4().filter).through(|map| with(Moments::EVSM4, map)),
         Subject::new("msm", presets::msm().filter).through(|map| with(Moments::Four, map)),
+        Subject::new("mean and deviation", FromMoments::default().with_bleeding(0.3).with_lit_from(0.95))
+            .through(|map| with(Moments::Deviation { samples: 8 }, map)),
     ]
 }

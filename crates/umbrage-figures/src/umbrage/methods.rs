@@ -40,8 +40,9 @@ pub(super) const PREFILTERED: [Method; 5] =
     [("vsm", "vsm"), ("esm", "esm"), ("evsm2", "evsm2"), ("evsm4", "evsm4"), ("msm", "msm")];
 
 /// Engines' default filters.
-pub(super) const ENGINES: [Method; 10] = [
+pub(super) const ENGINES: [Method; 11] = [
     ("three-pcf", "three-pcf"),
+    ("three-vsm", "three-vsm"),
     ("babylon-none", "babylon-none"),
     ("babylon-pcf", "babylon-pcf"),
     ("filament-pcf", "filament-pcf"),
