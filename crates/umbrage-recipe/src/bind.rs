@@ -72,6 +72,7 @@ impl Values {
                 let filter = self.moments.filter.with_depth(self.compared());
                 over(filter, maps.into_iter().map(|map| self.moments.over(preset, map)).collect())
             }
+            PresetName::HdrpPcss => over(self.hdrp.with_depth(self.compared()), maps),
             _ => self.closer_over(maps),
         }
     }

@@ -35,7 +35,7 @@ macro_rules! and_closer {
 /// These presets and those of engines.
 macro_rules! and_engines {
     ($($preset:ident),+ $(,)?) => {
-        and_closer![$($preset,)+ ThreeVsm]
+        and_closer![$($preset,)+ ThreeVsm, HdrpPcss]
     };
 }
 
@@ -79,6 +79,7 @@ const MOMENTS: &[PresetName] =
     &[PresetName::Vsm, PresetName::Esm, PresetName::Evsm2, PresetName::Evsm4, PresetName::Msm, PresetName::ThreeVsm];
 const VARIANCE: &[PresetName] = &[PresetName::Vsm, PresetName::Evsm2, PresetName::Evsm4, PresetName::ThreeVsm];
 const DEVIATION: &[PresetName] = &[PresetName::ThreeVsm];
+const HDRP: &[PresetName] = &[PresetName::HdrpPcss];
 
 /// A field that is one value of the recipe.
 macro_rules! plain {
@@ -418,6 +419,7 @@ pub const FIELDS: &[Field] = &[
             ("urp", DepthName::Engine(EngineBias::Urp)),
             ("urp-soft", DepthName::Engine(EngineBias::UrpSoft)),
             ("hdrp", DepthName::Engine(EngineBias::Hdrp)),
+            ("hdrp-pcss", DepthName::Engine(EngineBias::HdrpPcss)),
         ],
         |values| values.depth,
         "which depth is compared: the receiver's own, its tangent plane's, the bias cone's, its own moved by a bias that grows with its slope, that of the \
@@ -546,6 +548,39 @@ pub const FIELDS: &[Field] = &[
         "Burley 2006"
     ),
     plain!("blur", SOFT, COUNT, |values| values.blur.num_samples, "number of taps that are compared", "Burley 2006"),
+    plain!(
+        "search",
+        HDRP,
+        Kind::Whole(64),
+        |values| values.hdrp.search,
+        "number of samples that search for blockers",
+        "HDRP"
+    ),
+    plain!("blur", HDRP, Kind::Whole(64), |values| values.hdrp.blur, "number of bilinear comparisons", "HDRP"),
+    plain!(
+        "rotate",
+        HDRP,
+        Kind::Switch,
+        |values| values.hdrp.rotate,
+        "whether each region turns its samples by an angle of its own",
+        "HDRP"
+    ),
+    plain!(
+        "angular-diameter",
+        HDRP,
+        Kind::UpTo(90.0),
+        |values| values.hdrp.diameter,
+        "the angle under which the source of parallel light is seen, degrees (`angularDiameter`)",
+        "HDRP"
+    ),
+    plain!(
+        "shape-radius",
+        HDRP,
+        Kind::Number,
+        |values| values.hdrp.radius,
+        "the radius of a lamp, world units (`shapeRadius`)",
+        "HDRP"
+    ),
     own!(
         "rotate",
         SOFT,

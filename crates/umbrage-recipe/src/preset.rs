@@ -69,11 +69,13 @@ pub enum PresetName {
     HdrpPcf5,
     /// Unity's High Definition Render Pipeline, medium quality, directional lights: a tent of 7 × 7 texels.
     HdrpPcf7,
+    /// Unity's High Definition Render Pipeline, high quality: soft shadows by the size of the light.
+    HdrpPcss,
 }
 
 impl PresetName {
     /// All of them.
-    pub const ALL: [Self; 25] = [
+    pub const ALL: [Self; 26] = [
         Self::Auto,
         Self::Williams78,
         Self::Reeves87,
@@ -99,10 +101,11 @@ impl PresetName {
         Self::UrpSoft,
         Self::HdrpPcf5,
         Self::HdrpPcf7,
+        Self::HdrpPcss,
     ];
 
     /// The defaults of engines among them.
-    pub const ENGINES: [Self; 11] = [
+    pub const ENGINES: [Self; 12] = [
         Self::ThreePcf,
         Self::ThreeVsm,
         Self::BabylonNone,
@@ -114,6 +117,7 @@ impl PresetName {
         Self::UrpSoft,
         Self::HdrpPcf5,
         Self::HdrpPcf7,
+        Self::HdrpPcss,
     ];
 
     /// The word for it in recipes.
@@ -145,6 +149,7 @@ impl PresetName {
             Self::UrpSoft => "urp-soft",
             Self::HdrpPcf5 => "hdrp-pcf5",
             Self::HdrpPcf7 => "hdrp-pcf7",
+            Self::HdrpPcss => "hdrp-pcss",
         }
     }
 
@@ -177,6 +182,7 @@ impl PresetName {
             Self::UrpSoft => "Unity URP, soft shadows, medium quality: a tent of 5 x 5 texels",
             Self::HdrpPcf5 => "Unity HDRP, medium quality, spot lights: a tent of 5 x 5 texels",
             Self::HdrpPcf7 => "Unity HDRP, medium quality, directional lights: a tent of 7 x 7 texels",
+            Self::HdrpPcss => "Unity HDRP, high quality: soft shadows by the size of the light",
         }
     }
 
@@ -203,6 +209,8 @@ impl PresetName {
             Self::UrpSoft => (Bias::UrpSoft, AreaTent, 3.0, 1),
             Self::HdrpPcf5 => (Bias::Hdrp, AreaTent, 3.0, 1),
             Self::HdrpPcf7 => (Bias::Hdrp, AreaTent, 4.0, 1),
+            // The least disc, and the texels of its bilinear comparisons.
+            Self::HdrpPcss => (Bias::HdrpPcss, Vogel, 1.5, 16),
             _ => return None,
         };
         Some(ByEngine { bias, pattern, half, samples })
@@ -248,7 +256,8 @@ impl PresetName {
             | Self::UrpHard
             | Self::UrpSoft
             | Self::HdrpPcf5
-            | Self::HdrpPcf7 => &[Stored::First],
+            | Self::HdrpPcf7
+            | Self::HdrpPcss => &[Stored::First],
         }
     }
 }

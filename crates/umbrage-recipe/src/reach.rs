@@ -60,7 +60,7 @@ impl Recipe {
                 let facing = 1.0 / slope.hypot(1.0);
                 f64::from(offset.texels) * texel * offset.growth.of(slope * facing, facing) / facing
             }
-            DepthName::Engine(bias) => bias.lift(light, zeta, slope),
+            DepthName::Engine(bias) => self.values.of_engine(bias).lift(light, zeta, slope),
             DepthName::Constant | DepthName::Plane | DepthName::Cone => 0.0,
         }
     }
@@ -93,7 +93,7 @@ impl Recipe {
             DepthName::Cone => slope * (self.reach(view, receiver) * receiver.texel_world).length(),
             DepthName::SlopeScaled => scaled.world(view, receiver),
             DepthName::NormalOffset => nearer(offset.world(view, receiver)) as f32,
-            DepthName::Engine(bias) => bias.nearer(view, receiver, nearer) as f32,
+            DepthName::Engine(bias) => self.values.of_engine(bias).nearer(view, receiver, nearer) as f32,
         };
         let drawn = receiver.in_world(view, biased.low).max(receiver.in_world(view, biased.high));
         // An infinite bias of either sign has no bound, and neither has their difference.
@@ -135,6 +135,7 @@ impl Recipe {
                 // The coarser of two levels has texels up to twice the footprint's width, of which the next but one still counts.
                 scaled(4.0, values.moments.reach(preset))
             }
+            PresetName::HdrpPcss => values.hdrp.widest(view, receiver).min(most),
             _ => scaled(values.res_factor, values.min_size),
         };
         half + self.shift(view, receiver) + TO_SAMPLE
@@ -144,7 +145,7 @@ impl Recipe {
     fn shift(&self, view: &View, receiver: &Receiver) -> Vec2 {
         let along = match self.values.depth {
             DepthName::NormalOffset => self.values.offset.world(view, receiver),
-            DepthName::Engine(bias) => bias.of(view, receiver).normal,
+            DepthName::Engine(bias) => self.values.of_engine(bias).of(view, receiver).normal,
             DepthName::Constant | DepthName::Plane | DepthName::Cone | DepthName::SlopeScaled => 0.0,
         };
         if along == 0.0 { Vec2::ZERO } else { Moved::by(view, receiver, along, 0.0).shift.abs() }

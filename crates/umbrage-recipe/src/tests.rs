@@ -1,6 +1,6 @@
 //! What is read, what is refused, and that what is written reads as the same.
 
-use crate::engine::{Depth, EngineBias};
+use crate::engine::{Depth, EngineBias, OfEngine};
 use crate::pattern::PatternName;
 use crate::values::{DepthName, Rule, Values};
 use crate::{Field, Kind, PresetName, Recipe, help, markdown};
@@ -17,6 +17,10 @@ use umbrage_shadow::{
 
 fn read(text: &str) -> Values {
     text.parse::<Recipe>().unwrap().values
+}
+
+fn of_engine(bias: EngineBias) -> OfEngine {
+    Values::of(PresetName::Woo92).of_engine(bias)
 }
 
 fn refused(text: &str) -> String {
@@ -102,7 +106,7 @@ fn biases_that_grow_with_the_slope_and_offsets_are_read() {
     let offset = read("burley,depth=normal-offset,bias=0,normal-offset=0.75,offset-growth=sine").compared();
     let wanted = NormalOffset::default().with_texels(0.75).with_growth(OffsetGrowth::Sine).with_bias(Bias::ZERO);
     assert_eq!(offset, Depth::Any(wanted.into()));
-    assert_eq!(read("woo92,depth=godot").compared(), Depth::Engine(EngineBias::Godot));
+    assert_eq!(read("woo92,depth=godot").compared(), Depth::Engine(of_engine(EngineBias::Godot)));
     assert_eq!(refused("godot-pcf,bias=1t"), "bias = \"1t\": expected 0, with an engine's own bias as depth");
     assert_eq!(
         read("godot-pcf,depth=constant,bias=1t").compared(),
@@ -176,8 +180,8 @@ fn engines_presets_have_their_engines_default_bias() {
     }
     // Not all of them are nothing, and none is of a receiver that faces away.
     let (view, seen) = lit(false);
-    assert!(EngineBias::Bevy.of(&view, &seen).normal > 0.0);
-    assert_eq!(EngineBias::Bevy.of(&view, &Receiver { normal: -seen.normal, ..seen }), WorldBias::ZERO);
+    assert!(of_engine(EngineBias::Bevy).of(&view, &seen).normal > 0.0);
+    assert_eq!(of_engine(EngineBias::Bevy).of(&view, &Receiver { normal: -seen.normal, ..seen }), WorldBias::ZERO);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-use crate::engine::{Depth, EngineBias};
+use crate::engine::{Depth, EngineBias, OfEngine};
 use crate::moments::MomentValues;
 use crate::pattern::PatternName;
 use crate::preset::ByEngine;
@@ -9,8 +9,8 @@ use umbrage_plane::Bias;
 use umbrage_sample::{Disc, Jittered};
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
 use umbrage_shadow::{
-    AnyDepth, BiasCone, Biased, Conditional, DualPlane, MapRadius, NormalOffset, OccluderFalloff, OnPlane, Opacity,
-    Pcf, Radius, SlopeScaled, Soft, Softness, Spread, VirtualWhen, Williams, presets,
+    AnyDepth, BiasCone, Biased, Conditional, DualPlane, HdrpPcss, MapRadius, NormalOffset, OccluderFalloff, OnPlane,
+    Opacity, Pcf, Radius, SlopeScaled, Soft, Softness, Spread, VirtualWhen, Williams, presets,
 };
 
 /// Which surface of a texel is stored, and how it is found.
@@ -109,6 +109,8 @@ pub struct Values {
     pub maps: Option<u32>,
     pub window: Window,
     pub moments: MomentValues,
+    /// Its depth is left to `compared`.
+    pub hdrp: HdrpPcss,
 }
 
 impl Values {
@@ -214,6 +216,7 @@ impl Values {
             maps: None,
             window: Window::Given,
             moments: MomentValues::of(PresetName::Vsm),
+            hdrp: HdrpPcss::default(),
         }
     }
 
@@ -257,6 +260,10 @@ impl Values {
         OnPlane::default().with_bias(self.biased.low).with_slack(self.slack).with_reach(self.reach)
     }
 
+    pub fn of_engine(&self, bias: EngineBias) -> OfEngine {
+        OfEngine { bias, lamp: self.hdrp.radius }
+    }
+
     /// The depth that is compared.
     pub fn compared(&self) -> Depth {
         let any: AnyDepth = match self.depth {
@@ -268,7 +275,7 @@ impl Values {
             }
             DepthName::SlopeScaled => self.scaled.with_constant(self.biased.low).into(),
             DepthName::NormalOffset => self.offset.with_bias(self.biased.low).into(),
-            DepthName::Engine(bias) => return Depth::Engine(bias),
+            DepthName::Engine(bias) => return Depth::Engine(self.of_engine(bias)),
         };
         Depth::Any(any)
     }
@@ -286,7 +293,7 @@ impl Values {
             PresetName::Auto => return self.check_auto(),
             PresetName::Williams78 | PresetName::WangMolnar94 | PresetName::Ordinary => return Ok(()),
             // They compare more than a bias there.
-            PresetName::ThreeVsm => {}
+            PresetName::ThreeVsm | PresetName::HdrpPcss => {}
             preset if preset.is_prefiltered() => return Ok(()),
             _ => self.check_closer()?,
         }

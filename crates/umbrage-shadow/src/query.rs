@@ -126,6 +126,12 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         Footprint::boxed(centre, half.max(own.half + (own.centre - centre).abs()).min(self.limit()))
     }
 
+    /// A box of half-extents `half` (texels) about the point, whatever the receiver's footprint, at most a quarter of the map to each side.
+    #[inline(always)]
+    pub(crate) fn boxed(&self, half: Vec2) -> Footprint {
+        Footprint::boxed(self.receiver.texel.as_vec2(), half.min(self.limit()))
+    }
+
     /// Greatest half-extents of any region: a quarter of the map.
     #[inline(always)]
     fn limit(&self) -> Vec2 {
