@@ -1,5 +1,6 @@
 //! The default biases of engines as compared depths.
 
+use crate::settings::Settings;
 use umbrage_engines::{Conditions, Engine, EngineError, WorldBias};
 use umbrage_plane::{DepthRange, Footprint, Receiver, TexelRect, View};
 use umbrage_sample::Taps;
@@ -43,6 +44,7 @@ impl EngineBias {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OfEngine {
     pub bias: EngineBias,
+    pub settings: Settings,
     /// The radius of a lamp, on which HDRP's bias depends under its soft shadows, world units.
     pub lamp: f32,
 }
@@ -57,14 +59,17 @@ impl OfEngine {
             _ => *conditions,
         };
         // Where a unit of the depth format is left open, the least value.
-        let mut found = self.bias.engine().world(&[], &conditions)?.least;
+        let given: Vec<(&str, f64)> =
+            self.settings.given(self.bias.engine()).map(|(info, value)| (info.name, value)).collect();
+        let mut found = self.bias.engine().world(&given, &conditions)?.least;
         if self.bias == EngineBias::HdrpPcss {
             found.slope *= f64::from(HdrpPcss::default().with_radius(self.lamp).slope_bias(view));
         }
         Ok(found)
     }
 
-    /// In world units; none for a receiver that no engine shades or maps: one that faces away from the light, or is nearer or farther than its range.
+    /// In world units; none for a receiver that no engine shades or maps: one that faces away from the light, or is nearer or farther than its range. None
+    /// either where settings lead behind all that a light can see.
     pub fn of(self, view: &View, receiver: &Receiver) -> WorldBias {
         let conditions = Conditions::of(view, receiver);
         conditions.and_then(|conditions| self.under(view, &conditions)).unwrap_or(WorldBias::ZERO)

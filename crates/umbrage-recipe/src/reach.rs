@@ -1,5 +1,6 @@
 //! How far a recipe's filter looks, and the same recipe without its biases: both are needed to judge a picture.
 
+use crate::settings::Settings;
 use crate::values::{DepthName, Values};
 use crate::{PresetName, Recipe};
 use umbrage_plane::glam::Vec2;
@@ -27,7 +28,7 @@ impl Recipe {
     #[must_use]
     pub fn unbiased(&self) -> Option<Self> {
         let values = &self.values;
-        let without = Values { biased: Biased::constant(Bias::ZERO), ..*values };
+        let without = Values { biased: Biased::constant(Bias::ZERO), settings: Settings::default(), ..*values };
         // What the compared depth adds by itself.
         let (without, own) = match values.depth {
             DepthName::Cone => (Values { slope: 0.0, ..without }, values.slope != 0.0),

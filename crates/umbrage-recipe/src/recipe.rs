@@ -26,7 +26,7 @@ use umbrage_shadow::Shadow;
 ///
 /// The defaults of engines, as far as their sources show: percentage closer in a few texels about the receiver, whatever its footprint, with the
 /// engine's own default bias. That depends on the light's projection, on its map and on each receiver ([`umbrage_engines`]), so that no number of `bias` is the
-/// same; `depth=godot` gives it to any other filter. One unit of the scene is one of the engine's, and the light's near and far planes are taken for the
+/// same; `depth=godot` gives it to any other filter, and the engine's settings are fields then: `godot-pcf,shadow_bias=0.2`. One unit of the scene is one of the engine's, and the light's near and far planes are taken for the
 /// engine's own.
 ///
 /// | preset | stored | kernel | bias | sources read |

@@ -2,9 +2,11 @@ use crate::engine::{Depth, EngineBias, OfEngine};
 use crate::moments::MomentValues;
 use crate::pattern::PatternName;
 use crate::preset::ByEngine;
+use crate::settings::Settings;
 use crate::{PresetName, RecipeError};
 use umbrage_bake::{Deep, Refinement};
 use umbrage_depth::{Midpoint, SameSurface, Stored};
+use umbrage_engines::Engine;
 use umbrage_plane::Bias;
 use umbrage_sample::{Disc, Jittered};
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
@@ -76,6 +78,8 @@ pub struct Values {
     pub res_factor: f32,
     pub min_size: f32,
     pub depth: DepthName,
+    /// Of the engine whose bias `depth` is.
+    pub settings: Settings,
     pub biased: Biased,
     pub slope: f32,
     pub radius: Radius,
@@ -188,6 +192,7 @@ impl Values {
             res_factor: pcf.res_factor,
             min_size: pcf.min_size,
             depth: DepthName::Constant,
+            settings: Settings::default(),
             biased: pcf.depth,
             slope: cone.slope,
             radius: cone.radius,
@@ -260,8 +265,13 @@ impl Values {
         OnPlane::default().with_bias(self.biased.low).with_slack(self.slack).with_reach(self.reach)
     }
 
+    /// The engine whose bias is compared.
+    pub fn engine(&self) -> Option<Engine> {
+        if let DepthName::Engine(bias) = self.depth { Some(bias.engine()) } else { None }
+    }
+
     pub fn of_engine(&self, bias: EngineBias) -> OfEngine {
-        OfEngine { bias, lamp: self.hdrp.radius }
+        OfEngine { bias, settings: self.settings, lamp: self.hdrp.radius }
     }
 
     /// The depth that is compared.
