@@ -3,7 +3,7 @@
 use crate::args::{Cli, RecipesArgs};
 use crate::shell::{Shell, Usage};
 use serde_json::{Value, json};
-use umbrage_engines::Engine;
+use umbrage_engines::{Engine, SettingInfo};
 use umbrage_recipe::{Field, PresetName, Recipe, help};
 use umbrage_scene::gallery;
 
@@ -55,8 +55,11 @@ fn described(preset: PresetName) -> Value {
             "about": field.doc, "source": field.source,
         })
     };
+    let setting = |info: &SettingInfo| json!({ "name": info.name, "default": info.default, "unit": info.unit, "about": info.meaning });
+    let settings = preset.engine().map_or(&[][..], |engine| engine.about().settings);
     json!({
         "name": preset.name(), "about": preset.about(), "engine": preset.engine().map(Engine::name), "stored": Recipe::from(preset).stored().name(),
         "fields": Field::of(preset).map(field).collect::<Vec<_>>(),
+        "settings": settings.iter().map(setting).collect::<Vec<_>>(),
     })
 }

@@ -68,10 +68,11 @@ impl Values {
                 let filter = FilteredDepth::default().with_bias(self.biased.low).with_res_factor(self.res_factor);
                 over(filter, maps)
             }
-            PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
-                let filter = self.moments.filter.with_bias(self.biased.low);
+            preset if preset.is_prefiltered() => {
+                let filter = self.moments.filter.with_depth(self.compared());
                 over(filter, maps.into_iter().map(|map| self.moments.over(preset, map)).collect())
             }
+            PresetName::HdrpPcss => over(self.hdrp.with_depth(self.compared()), maps),
             _ => self.closer_over(maps),
         }
     }

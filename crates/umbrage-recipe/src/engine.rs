@@ -1,9 +1,10 @@
 //! The default biases of engines as compared depths.
 
+use crate::settings::Settings;
 use umbrage_engines::{Conditions, Engine, EngineError, WorldBias};
 use umbrage_plane::{DepthRange, Footprint, Receiver, TexelRect, View};
 use umbrage_sample::Taps;
-use umbrage_shadow::{AnyDepth, Compared, Moved, ReceiverDepth, Simd, f32x16};
+use umbrage_shadow::{AnyDepth, Compared, HdrpPcss, Moved, ReceiverDepth, Simd, f32x16};
 
 /// An engine's default bias. It differs from receiver to receiver, with the light's projection and its map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,6 +22,8 @@ pub enum EngineBias {
     /// Of soft ones.
     UrpSoft,
     Hdrp,
+    /// Of its soft shadows of high quality.
+    HdrpPcss,
 }
 
 impl EngineBias {
@@ -32,33 +35,51 @@ impl EngineBias {
             Self::Bevy => Engine::Bevy,
             Self::Godot => Engine::Godot,
             Self::Urp | Self::UrpSoft => Engine::Urp,
-            Self::Hdrp => Engine::Hdrp,
+            Self::Hdrp | Self::HdrpPcss => Engine::Hdrp,
         }
     }
+}
 
+/// An engine's bias with what a recipe says of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OfEngine {
+    pub bias: EngineBias,
+    pub settings: Settings,
+    /// The radius of a lamp, on which HDRP's bias depends under its soft shadows, world units.
+    pub lamp: f32,
+}
+
+impl OfEngine {
     /// Under conditions that a light and a receiver give.
-    fn under(self, conditions: &Conditions) -> Result<WorldBias, EngineError> {
-        let conditions = match self {
-            Self::BabylonPcf => conditions.with_depth_texture(true),
+    fn under(self, view: &View, conditions: &Conditions) -> Result<WorldBias, EngineError> {
+        let conditions = match self.bias {
+            EngineBias::BabylonPcf => conditions.with_depth_texture(true),
             // Medium quality, 5 x 5 texels.
-            Self::UrpSoft => conditions.with_filter_radius(Some(2.5)),
+            EngineBias::UrpSoft => conditions.with_filter_radius(Some(2.5)),
             _ => *conditions,
         };
         // Where a unit of the depth format is left open, the least value.
-        Ok(self.engine().world(&[], &conditions)?.least)
+        let given: Vec<(&str, f64)> =
+            self.settings.given(self.bias.engine()).map(|(info, value)| (info.name, value)).collect();
+        let mut found = self.bias.engine().world(&given, &conditions)?.least;
+        if self.bias == EngineBias::HdrpPcss {
+            found.slope *= f64::from(HdrpPcss::default().with_radius(self.lamp).slope_bias(view));
+        }
+        Ok(found)
     }
 
-    /// In world units; none for a receiver that no engine shades or maps: one that faces away from the light, or is nearer or farther than its range.
+    /// In world units; none for a receiver that no engine shades or maps: one that faces away from the light, or is nearer or farther than its range. None
+    /// either where settings lead behind all that a light can see.
     pub fn of(self, view: &View, receiver: &Receiver) -> WorldBias {
         let conditions = Conditions::of(view, receiver);
-        conditions.and_then(|conditions| self.under(&conditions)).unwrap_or(WorldBias::ZERO)
+        conditions.and_then(|conditions| self.under(view, &conditions)).unwrap_or(WorldBias::ZERO)
     }
 
     /// How far in front of a plane of a slope the compared depth lies at an axial distance, world units along the light's axis; 0 where nothing is known of it.
     pub fn lift(self, light: &View, zeta: f64, slope: f64) -> f64 {
         let lift = || -> Result<f64, EngineError> {
             let conditions = Conditions::on_axis(light, zeta)?.with_light_at(1.0 / slope.hypot(1.0));
-            self.under(&conditions)?.along_axis(&conditions)
+            self.under(light, &conditions)?.along_axis(&conditions)
         };
         lift().unwrap_or(0.0)
     }
@@ -87,7 +108,7 @@ impl EngineBias {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Depth {
     Any(AnyDepth),
-    Engine(EngineBias),
+    Engine(OfEngine),
 }
 
 impl ReceiverDepth for Depth {

@@ -33,7 +33,8 @@ impl Field {
         read.then_some(()).ok_or_else(|| RecipeError::value(self.name, text, self.kind.to_string()))
     }
 
-    /// The defaults in few words: that of most presets, then the others by name. Those of engines are in a table of their own.
+    /// The defaults in few words: that of most presets, then the others by name. Those of engines are in a table of their own, unless no other preset knows
+    /// the field.
     pub(crate) fn defaults(&self) -> String {
         let of = |preset: &PresetName| match self.default(*preset) {
             Some(value) if value == "inf" => "∞".into(),
@@ -41,6 +42,7 @@ impl Field {
             None => "none".into(),
         };
         let (engines, papers): (Vec<_>, Vec<_>) = self.of.iter().partition(|preset| preset.engine().is_some());
+        let (engines, papers) = if papers.is_empty() { (papers, engines) } else { (engines, papers) };
         let values: Vec<String> = papers.iter().map(of).collect();
         let count = |value: &String| values.iter().filter(|other| *other == value).count();
         let Some(common) = values.iter().max_by_key(|value| count(value)) else { return String::new() };
@@ -58,9 +60,16 @@ impl Field {
         if let (Some(but), None) = (others.next(), others.next()) {
             return format!("all but {}", but.name());
         }
-        // Engines' presets know the same fields, all of them.
-        let engines = PresetName::ENGINES.iter().all(|preset| self.of.contains(preset));
+        // Most engines' presets know the same fields: percentage closer in a few texels.
+        let (known, unknown): (Vec<PresetName>, Vec<PresetName>) =
+            PresetName::ENGINES.into_iter().partition(|preset| self.of.contains(preset));
+        let engines = known.len() > unknown.len();
         let own = self.of.iter().filter(|preset| !engines || preset.engine().is_none()).map(|preset| preset.name());
-        own.chain(engines.then_some("engines'")).collect::<Vec<_>>().join(", ")
+        let listed = own.chain(engines.then_some("engines'")).collect::<Vec<_>>().join(", ");
+        if !engines || unknown.is_empty() {
+            return listed;
+        }
+        let but: Vec<_> = unknown.into_iter().map(PresetName::name).collect();
+        format!("{listed} but {}", but.join(" and "))
     }
 }

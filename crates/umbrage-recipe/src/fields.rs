@@ -13,8 +13,8 @@ use umbrage_shadow::{OccluderFalloff, OffsetGrowth, Radius, Spread, VirtualWhen}
 
 const AUTO: &[PresetName] = &[PresetName::Auto];
 
-/// These presets and those of engines.
-macro_rules! and_engines {
+/// These presets and those of engines that are percentage closer in a few texels.
+macro_rules! and_closer {
     ($($preset:ident),+ $(,)?) => {
         &[
             $(PresetName::$preset,)+
@@ -29,6 +29,13 @@ macro_rules! and_engines {
             PresetName::HdrpPcf5,
             PresetName::HdrpPcf7,
         ]
+    };
+}
+
+/// These presets and those of engines.
+macro_rules! and_engines {
+    ($($preset:ident),+ $(,)?) => {
+        and_closer![$($preset,)+ ThreeVsm, HdrpPcss]
     };
 }
 
@@ -48,12 +55,12 @@ const STORING: &[PresetName] = and_engines![
     Evsm4,
     Msm,
 ];
-const CLOSER: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92];
+const CLOSER: &[PresetName] = and_closer![Reeves87, Reeves87Recommended, Woo92];
 const SOFT: &[PresetName] = &[PresetName::Burley, PresetName::Fernando];
 const COMPARED: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92, Burley, Fernando];
 const PLANES: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92, WangMolnar94, Burley, Fernando];
-const REGIONS: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92, WangMolnar94];
-const FACTORS: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92, WangMolnar94, Ordinary];
+const REGIONS: &[PresetName] = and_closer![Reeves87, Reeves87Recommended, Woo92, WangMolnar94];
+const FACTORS: &[PresetName] = and_closer![Reeves87, Reeves87Recommended, Woo92, WangMolnar94, Ordinary];
 const CONDITIONAL: &[PresetName] = &[PresetName::WangMolnar94];
 const WILLIAMS: &[PresetName] = &[PresetName::Williams78];
 const SINGLE: &[PresetName] = &[
@@ -66,9 +73,13 @@ const SINGLE: &[PresetName] = &[
     PresetName::Evsm4,
     PresetName::Msm,
 ];
-const MOMENTS: &[PresetName] =
+const PREFILTERED: &[PresetName] =
     &[PresetName::Vsm, PresetName::Esm, PresetName::Evsm2, PresetName::Evsm4, PresetName::Msm];
-const VARIANCE: &[PresetName] = &[PresetName::Vsm, PresetName::Evsm2, PresetName::Evsm4];
+const MOMENTS: &[PresetName] =
+    &[PresetName::Vsm, PresetName::Esm, PresetName::Evsm2, PresetName::Evsm4, PresetName::Msm, PresetName::ThreeVsm];
+const VARIANCE: &[PresetName] = &[PresetName::Vsm, PresetName::Evsm2, PresetName::Evsm4, PresetName::ThreeVsm];
+const DEVIATION: &[PresetName] = &[PresetName::ThreeVsm];
+const HDRP: &[PresetName] = &[PresetName::HdrpPcss];
 
 /// A field that is one value of the recipe.
 macro_rules! plain {
@@ -408,6 +419,7 @@ pub const FIELDS: &[Field] = &[
             ("urp", DepthName::Engine(EngineBias::Urp)),
             ("urp-soft", DepthName::Engine(EngineBias::UrpSoft)),
             ("hdrp", DepthName::Engine(EngineBias::Hdrp)),
+            ("hdrp-pcss", DepthName::Engine(EngineBias::HdrpPcss)),
         ],
         |values| values.depth,
         "which depth is compared: the receiver's own, its tangent plane's, the bias cone's, its own moved by a bias that grows with its slope, that of the \
@@ -536,6 +548,39 @@ pub const FIELDS: &[Field] = &[
         "Burley 2006"
     ),
     plain!("blur", SOFT, COUNT, |values| values.blur.num_samples, "number of taps that are compared", "Burley 2006"),
+    plain!(
+        "search",
+        HDRP,
+        Kind::Whole(64),
+        |values| values.hdrp.search,
+        "number of samples that search for blockers",
+        "HDRP"
+    ),
+    plain!("blur", HDRP, Kind::Whole(64), |values| values.hdrp.blur, "number of bilinear comparisons", "HDRP"),
+    plain!(
+        "rotate",
+        HDRP,
+        Kind::Switch,
+        |values| values.hdrp.rotate,
+        "whether each region turns its samples by an angle of its own",
+        "HDRP"
+    ),
+    plain!(
+        "angular-diameter",
+        HDRP,
+        Kind::UpTo(90.0),
+        |values| values.hdrp.diameter,
+        "the angle under which the source of parallel light is seen, degrees (`angularDiameter`)",
+        "HDRP"
+    ),
+    plain!(
+        "shape-radius",
+        HDRP,
+        Kind::Number,
+        |values| values.hdrp.radius,
+        "the radius of a lamp, world units (`shapeRadius`)",
+        "HDRP"
+    ),
     own!(
         "rotate",
         SOFT,
@@ -692,12 +737,36 @@ pub const FIELDS: &[Field] = &[
         "GPU Gems 3, ch. 8"
     ),
     plain!(
-        "prefilter",
+        "lit-from",
         MOMENTS,
+        SHARE,
+        |values| values.moments.filter.lit_from,
+        "visibility from which all counts as lit; what is between the fraction that is cut off and this is stretched",
+        "three.js r187"
+    ),
+    plain!(
+        "prefilter",
+        PREFILTERED,
         Kind::UpTo(64.0),
         |values| values.moments.prefilter,
         "standard deviation of the blur of the map, texels",
         ""
+    ),
+    plain!(
+        "prefilter",
+        DEVIATION,
+        Kind::UpTo(64.0),
+        |values| values.moments.prefilter,
+        "how far the box by which the map is blurred reaches to each side, texels (`radius`)",
+        "three.js r187"
+    ),
+    plain!(
+        "blur-samples",
+        DEVIATION,
+        Kind::Whole(Moments::MOST_SAMPLES),
+        |values| values.moments.samples,
+        "samples along a row and along a column of that box (`blurSamples`)",
+        "three.js r187"
     ),
     plain!(
         "least-variance",

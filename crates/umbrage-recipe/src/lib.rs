@@ -34,6 +34,7 @@ mod preset;
 mod reach;
 mod recipe;
 mod rsl;
+mod settings;
 mod table;
 #[cfg(test)]
 mod tests;

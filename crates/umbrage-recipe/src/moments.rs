@@ -10,8 +10,10 @@ pub struct MomentValues {
     /// The sharpness of one exponential, or the positive exponent.
     pub exponent: f32,
     pub negative: f32,
-    /// Standard deviation of the blur, texels.
+    /// Standard deviation of the blur, or how far its box reaches to each side, texels.
     pub prefilter: f32,
+    /// Samples along a row of the box.
+    pub samples: u32,
     pub filter: FromMoments,
 }
 
@@ -23,14 +25,15 @@ impl MomentValues {
             PresetName::Evsm2 => (Moments::EVSM2, presets::evsm2().filter),
             PresetName::Evsm4 => (Moments::EVSM4, presets::evsm4().filter),
             PresetName::Msm => (Moments::Four, presets::msm().filter),
+            PresetName::ThreeVsm => (Moments::Deviation { samples: SAMPLES }, three()),
             _ => (Moments::Variance, presets::vsm().filter),
         };
         let (exponent, negative) = match kind {
             Moments::Exponential { sharpness } => (sharpness, 0.0),
             Moments::ExponentialVariance { positive, negative } => (positive, negative.unwrap_or(0.0)),
-            Moments::Variance | Moments::Four => (0.0, 0.0),
+            Moments::Variance | Moments::Four | Moments::Deviation { .. } => (0.0, 0.0),
         };
-        Self { exponent, negative, prefilter: 1.0, filter }
+        Self { exponent, negative, prefilter: 1.0, samples: SAMPLES, filter }
     }
 
     /// Which moments a preset stores; `None` for one that compares depths.
@@ -42,6 +45,7 @@ impl MomentValues {
             PresetName::Evsm2 => Some(Moments::ExponentialVariance { positive: exponent, negative: None }),
             PresetName::Evsm4 => Some(Moments::ExponentialVariance { positive: exponent, negative: Some(negative) }),
             PresetName::Msm => Some(Moments::Four),
+            PresetName::ThreeVsm => Some(Moments::Deviation { samples: self.samples }),
             _ => None,
         }
     }
@@ -58,7 +62,19 @@ impl MomentValues {
     }
 
     /// Texels to each side of a place on which its moments depend, at least.
-    pub fn reach(&self) -> f32 {
-        1.0 + (3.0 * self.prefilter).ceil()
+    pub fn reach(&self, preset: PresetName) -> f32 {
+        match preset {
+            // Both passes and the look-up interpolate, or round to a texel.
+            PresetName::ThreeVsm => 2.0 + self.prefilter.ceil(),
+            _ => 1.0 + (3.0 * self.prefilter).ceil(),
+        }
     }
+}
+
+/// `blurSamples` of three.js (r187, `LightShadow.js`).
+const SAMPLES: u32 = 8;
+
+/// The numbers of `getShadow` for `VSMShadowMap` (r187, `shadowmap_pars_fragment.glsl.js`).
+fn three() -> FromMoments {
+    FromMoments::default().with_bleeding(0.3).with_lit_from(0.95).with_least_variance(1e-7)
 }

@@ -49,6 +49,8 @@ pub enum PresetName {
     Msm,
     /// three.js, `PCFShadowMap`: five bilinear comparisons on a disc, over back faces.
     ThreePcf,
+    /// three.js, `VSMShadowMap`: a mean and a deviation of a box of texels, and Chebyshev's inequality.
+    ThreeVsm,
     /// Babylon.js, `FILTER_NONE`: the nearest texel.
     BabylonNone,
     /// Babylon.js, `FILTER_PCF` of high quality: Castaño's 5 × 5 texels.
@@ -67,11 +69,13 @@ pub enum PresetName {
     HdrpPcf5,
     /// Unity's High Definition Render Pipeline, medium quality, directional lights: a tent of 7 × 7 texels.
     HdrpPcf7,
+    /// Unity's High Definition Render Pipeline, high quality: soft shadows by the size of the light.
+    HdrpPcss,
 }
 
 impl PresetName {
     /// All of them.
-    pub const ALL: [Self; 24] = [
+    pub const ALL: [Self; 26] = [
         Self::Auto,
         Self::Williams78,
         Self::Reeves87,
@@ -87,6 +91,7 @@ impl PresetName {
         Self::Evsm4,
         Self::Msm,
         Self::ThreePcf,
+        Self::ThreeVsm,
         Self::BabylonNone,
         Self::BabylonPcf,
         Self::FilamentPcf,
@@ -96,11 +101,13 @@ impl PresetName {
         Self::UrpSoft,
         Self::HdrpPcf5,
         Self::HdrpPcf7,
+        Self::HdrpPcss,
     ];
 
     /// The defaults of engines among them.
-    pub const ENGINES: [Self; 10] = [
+    pub const ENGINES: [Self; 12] = [
         Self::ThreePcf,
+        Self::ThreeVsm,
         Self::BabylonNone,
         Self::BabylonPcf,
         Self::FilamentPcf,
@@ -110,6 +117,7 @@ impl PresetName {
         Self::UrpSoft,
         Self::HdrpPcf5,
         Self::HdrpPcf7,
+        Self::HdrpPcss,
     ];
 
     /// The word for it in recipes.
@@ -131,6 +139,7 @@ impl PresetName {
             Self::Evsm4 => "evsm4",
             Self::Msm => "msm",
             Self::ThreePcf => "three-pcf",
+            Self::ThreeVsm => "three-vsm",
             Self::BabylonNone => "babylon-none",
             Self::BabylonPcf => "babylon-pcf",
             Self::FilamentPcf => "filament-pcf",
@@ -140,6 +149,7 @@ impl PresetName {
             Self::UrpSoft => "urp-soft",
             Self::HdrpPcf5 => "hdrp-pcf5",
             Self::HdrpPcf7 => "hdrp-pcf7",
+            Self::HdrpPcss => "hdrp-pcss",
         }
     }
 
@@ -162,6 +172,7 @@ impl PresetName {
             Self::Evsm4 => "the same of four channels",
             Self::Msm => "moment shadow maps (Peters & Klein 2015)",
             Self::ThreePcf => "three.js, PCFShadowMap: five bilinear comparisons on a disc, over back faces",
+            Self::ThreeVsm => "three.js, VSMShadowMap: mean and deviation of a box of texels, Chebyshev's inequality",
             Self::BabylonNone => "Babylon.js, FILTER_NONE: the nearest texel",
             Self::BabylonPcf => "Babylon.js, FILTER_PCF, high quality: Castaño's 5 x 5 texels",
             Self::FilamentPcf => "Filament, PCF: Castaño's 3 x 3 texels",
@@ -171,6 +182,7 @@ impl PresetName {
             Self::UrpSoft => "Unity URP, soft shadows, medium quality: a tent of 5 x 5 texels",
             Self::HdrpPcf5 => "Unity HDRP, medium quality, spot lights: a tent of 5 x 5 texels",
             Self::HdrpPcf7 => "Unity HDRP, medium quality, directional lights: a tent of 7 x 7 texels",
+            Self::HdrpPcss => "Unity HDRP, high quality: soft shadows by the size of the light",
         }
     }
 
@@ -186,6 +198,8 @@ impl PresetName {
         use PatternName::{AreaTent, Castano5, Centre, Tent, Vogel};
         let (bias, pattern, half, samples) = match self {
             Self::ThreePcf => (Bias::Three, Vogel, 2.0, 5),
+            // Looked up once, in a map that is filtered beforehand.
+            Self::ThreeVsm => (Bias::Three, Centre, 0.0, 1),
             Self::BabylonNone => (Bias::Babylon, Centre, 0.0, 1),
             Self::BabylonPcf => (Bias::BabylonPcf, Castano5, 3.0, 1),
             Self::FilamentPcf => (Bias::Filament, Tent, 2.0, 1),
@@ -195,9 +209,16 @@ impl PresetName {
             Self::UrpSoft => (Bias::UrpSoft, AreaTent, 3.0, 1),
             Self::HdrpPcf5 => (Bias::Hdrp, AreaTent, 3.0, 1),
             Self::HdrpPcf7 => (Bias::Hdrp, AreaTent, 4.0, 1),
+            // The least disc, and the texels of its bilinear comparisons.
+            Self::HdrpPcss => (Bias::HdrpPcss, Vogel, 1.5, 16),
             _ => return None,
         };
         Some(ByEngine { bias, pattern, half, samples })
+    }
+
+    /// Whether its maps are filtered before they are looked up.
+    pub(crate) const fn is_prefiltered(self) -> bool {
+        matches!(self, Self::Vsm | Self::Esm | Self::Evsm2 | Self::Evsm4 | Self::Msm | Self::ThreeVsm)
     }
 
     /// The one with this [`name`](Self::name); `None` for any other text.
@@ -226,7 +247,8 @@ impl PresetName {
             Self::Msm => presets::msm().expects,
             // The faces with which single-sided materials cast there.
             Self::ThreePcf => &[Stored::BackFace],
-            Self::BabylonNone
+            Self::ThreeVsm
+            | Self::BabylonNone
             | Self::BabylonPcf
             | Self::FilamentPcf
             | Self::BevyGaussian
@@ -234,7 +256,8 @@ impl PresetName {
             | Self::UrpHard
             | Self::UrpSoft
             | Self::HdrpPcf5
-            | Self::HdrpPcf7 => &[Stored::First],
+            | Self::HdrpPcf7
+            | Self::HdrpPcss => &[Stored::First],
         }
     }
 }

@@ -1,5 +1,6 @@
 //! How far a recipe's filter looks, and the same recipe without its biases: both are needed to judge a picture.
 
+use crate::settings::Settings;
 use crate::values::{DepthName, Values};
 use crate::{PresetName, Recipe};
 use umbrage_plane::glam::Vec2;
@@ -27,7 +28,7 @@ impl Recipe {
     #[must_use]
     pub fn unbiased(&self) -> Option<Self> {
         let values = &self.values;
-        let without = Values { biased: Biased::constant(Bias::ZERO), ..*values };
+        let without = Values { biased: Biased::constant(Bias::ZERO), settings: Settings::default(), ..*values };
         // What the compared depth adds by itself.
         let (without, own) = match values.depth {
             DepthName::Cone => (Values { slope: 0.0, ..without }, values.slope != 0.0),
@@ -60,7 +61,7 @@ impl Recipe {
                 let facing = 1.0 / slope.hypot(1.0);
                 f64::from(offset.texels) * texel * offset.growth.of(slope * facing, facing) / facing
             }
-            DepthName::Engine(bias) => bias.lift(light, zeta, slope),
+            DepthName::Engine(bias) => self.values.of_engine(bias).lift(light, zeta, slope),
             DepthName::Constant | DepthName::Plane | DepthName::Cone => 0.0,
         }
     }
@@ -93,7 +94,7 @@ impl Recipe {
             DepthName::Cone => slope * (self.reach(view, receiver) * receiver.texel_world).length(),
             DepthName::SlopeScaled => scaled.world(view, receiver),
             DepthName::NormalOffset => nearer(offset.world(view, receiver)) as f32,
-            DepthName::Engine(bias) => bias.nearer(view, receiver, nearer) as f32,
+            DepthName::Engine(bias) => self.values.of_engine(bias).nearer(view, receiver, nearer) as f32,
         };
         let drawn = receiver.in_world(view, biased.low).max(receiver.in_world(view, biased.high));
         // An infinite bias of either sign has no bound, and neither has their difference.
@@ -131,10 +132,11 @@ impl Recipe {
             PresetName::Burley | PresetName::Fernando => {
                 scaled(1.0, 0.0).max(widest(values.softness(), view, receiver)).min(most)
             }
-            PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
+            preset if preset.is_prefiltered() => {
                 // The coarser of two levels has texels up to twice the footprint's width, of which the next but one still counts.
-                scaled(4.0, values.moments.reach())
+                scaled(4.0, values.moments.reach(preset))
             }
+            PresetName::HdrpPcss => values.hdrp.widest(view, receiver).min(most),
             _ => scaled(values.res_factor, values.min_size),
         };
         half + self.shift(view, receiver) + TO_SAMPLE
@@ -144,7 +146,7 @@ impl Recipe {
     fn shift(&self, view: &View, receiver: &Receiver) -> Vec2 {
         let along = match self.values.depth {
             DepthName::NormalOffset => self.values.offset.world(view, receiver),
-            DepthName::Engine(bias) => bias.of(view, receiver).normal,
+            DepthName::Engine(bias) => self.values.of_engine(bias).of(view, receiver).normal,
             DepthName::Constant | DepthName::Plane | DepthName::Cone | DepthName::SlopeScaled => 0.0,
         };
         if along == 0.0 { Vec2::ZERO } else { Moved::by(view, receiver, along, 0.0).shift.abs() }

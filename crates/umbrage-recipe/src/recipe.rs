@@ -26,12 +26,13 @@ use umbrage_shadow::Shadow;
 ///
 /// The defaults of engines, as far as their sources show: percentage closer in a few texels about the receiver, whatever its footprint, with the
 /// engine's own default bias. That depends on the light's projection, on its map and on each receiver ([`umbrage_engines`]), so that no number of `bias` is the
-/// same; `depth=godot` gives it to any other filter. One unit of the scene is one of the engine's, and the light's near and far planes are taken for the
+/// same; `depth=godot` gives it to any other filter, and the engine's settings are fields then: `godot-pcf,shadow_bias=0.2`. One unit of the scene is one of the engine's, and the light's near and far planes are taken for the
 /// engine's own.
 ///
 /// | preset | stored | kernel | bias | sources read |
 /// |---|---|---|---|---|
 /// | `three-pcf` | back-face | [`Vogel`](umbrage_sample::Vogel), 5 samples, radius 1 | `three` | three.js r187, `shadowmap_pars_fragment.glsl.js` |
+/// | `three-vsm` | first, filtered beforehand | mean and deviation of a box of 3 × 3 texels, 8 samples a side; light up to 0.3 is none, from 0.95 all | `three` | three.js r187, `vsm.glsl.js`, `WebGLShadowMap.js` and the same |
 /// | `babylon-none` | first | nearest texel | `babylon` | Babylon.js 9.35, `shadowsFragmentFunctions.js` |
 /// | `babylon-pcf` | first | [`Castano`](umbrage_sample::Castano), 5 × 5 | `babylon-pcf` | the same |
 /// | `filament-pcf` | first | [`Tent`](umbrage_sample::Tent) of 2 texels, which is Castaño's 3 × 3 | `filament` | Filament, `surface_shadowing.fs` |
@@ -40,11 +41,11 @@ use umbrage_shadow::Shadow;
 /// | `urp-hard` | first | [`Tent`](umbrage_sample::Tent) of 1 texel, one bilinear comparison | `urp` | Unity URP, `Shadows.hlsl` |
 /// | `urp-soft` | first | [`AreaTent`](umbrage_sample::AreaTent), 5 × 5 | `urp-soft` | the same and `ShadowSamplingTent.hlsl` |
 /// | `hdrp-pcf5`, `hdrp-pcf7` | first | [`AreaTent`](umbrage_sample::AreaTent), 5 × 5 for spot lights, 7 × 7 for directional ones | `hdrp` | Unity HDRP, `HDShadowAlgorithms.hlsl`, and the same |
+/// | `hdrp-pcss` | first | [`HdrpPcss`](umbrage_shadow::HdrpPcss), 24 samples that search and 16 bilinear comparisons; a sun of 0.5°, a lamp of 0.025 units | `hdrp-pcss` | Unity HDRP, `HDShadowSampling.hlsl`, `HDPCSS.hlsl` |
 ///
 /// Where a unit of the depth format is left open, the least is taken. Normals are geometric, where engines may take shading normals. Cascades, borders of
 /// atlases and
-/// fades at a map's end are not in them. HDRP's PCSS is not here: its filter, the nearest blocker of a cone of samples, is different from `fernando`; nor is
-/// `VSMShadowMap` of three.js, whose steps of a probability differ from `vsm`.
+/// fades at a map's end are not in them.
 ///
 /// Units: `t` texels, `w` world units, `s` depth steps, `m` fractions of the range from near to far as screen depth has it, `%` of the map's sides.
 ///
@@ -124,9 +125,7 @@ impl Recipe {
         match self.preset {
             PresetName::Auto | PresetName::Williams78 | PresetName::Ordinary => 0.0,
             PresetName::Burley | PresetName::Fernando => 0.5,
-            PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
-                self.values.moments.reach()
-            }
+            preset if preset.is_prefiltered() => self.values.moments.reach(preset),
             _ => self.values.min_size,
         }
     }

@@ -1,7 +1,7 @@
 //! The table of all fields.
 
 use crate::fields::FIELDS;
-use crate::{Field, Kind, PresetName, RecipeError, kind};
+use crate::{Field, Kind, PresetName, RecipeError, kind, settings};
 use std::fmt::Write;
 
 impl Field {
@@ -26,7 +26,7 @@ impl Field {
     }
 }
 
-/// The table of fields as Markdown, as in the documentation of [`Recipe`](crate::Recipe).
+/// The table of fields, and that of engines' settings, as Markdown, as in the documentation of [`Recipe`](crate::Recipe).
 #[must_use]
 pub fn markdown() -> String {
     let mut table =
@@ -40,16 +40,37 @@ pub fn markdown() -> String {
         let _ =
             writeln!(table, "| `{}` | {of} | {values} | {defaults} | {} | {} |", field.name, field.doc, field.source);
     }
+    table.push_str("\nWhere `depth` is an engine's bias, the engine's own settings are fields too, by its own names and in its units, as `umbrage bias --engine` prints them:\n");
+    table.push_str("\n| engine | setting | default | unit | what it does |\n|---|---|---|---|---|\n");
+    let mut engines: Vec<_> = PresetName::ENGINES.into_iter().filter_map(PresetName::engine).collect();
+    engines.dedup();
+    for engine in engines {
+        for info in engine.about().settings {
+            let default = info.default.map_or_else(|| "none".into(), |value| format!("`{value}`"));
+            let _ = writeln!(
+                table,
+                "| {} | `{}` | {default} | {} | {} |",
+                engine.about().title,
+                info.name,
+                info.unit,
+                info.meaning
+            );
+        }
+    }
     table
 }
 
-/// What may be written behind a preset's name: a line per field, for a terminal.
+/// What may be written behind a preset's name: a line per field, and per setting of its engine, for a terminal.
 #[must_use]
 pub fn help(preset: PresetName) -> String {
     let mut lines = String::new();
     for field in Field::of(preset) {
         let default = field.default(preset).map_or_else(String::new, |value| format!(" [{value}]"));
         let _ = writeln!(lines, "{}={default}: {}; {}", field.name, field.kind, field.doc);
+    }
+    for info in preset.engine().into_iter().flat_map(settings::of) {
+        let default = info.default.map_or_else(String::new, |value| format!(" [{value}]"));
+        let _ = writeln!(lines, "{}={default}: {}; {}", info.name, settings::expected(info), info.meaning);
     }
     lines
 }

@@ -1,11 +1,11 @@
 //! What is read, what is refused, and that what is written reads as the same.
 
-use crate::engine::{Depth, EngineBias};
+use crate::engine::{Depth, EngineBias, OfEngine};
 use crate::pattern::PatternName;
 use crate::values::{DepthName, Rule, Values};
 use crate::{Field, Kind, PresetName, Recipe, help, markdown};
 use proptest::prelude::*;
-use umbrage_engines::{Conditions, WorldBias};
+use umbrage_engines::{Conditions, Part, WorldBias};
 use umbrage_plane::glam::{DVec3, UVec2};
 use umbrage_plane::{Bias, Receiver, SurfacePoint, TexelRect, View};
 use umbrage_sample::Jittered;
@@ -17,6 +17,10 @@ use umbrage_shadow::{
 
 fn read(text: &str) -> Values {
     text.parse::<Recipe>().unwrap().values
+}
+
+fn of_engine(bias: EngineBias) -> OfEngine {
+    Values::of(PresetName::Woo92).of_engine(bias)
 }
 
 fn refused(text: &str) -> String {
@@ -102,7 +106,7 @@ fn biases_that_grow_with_the_slope_and_offsets_are_read() {
     let offset = read("burley,depth=normal-offset,bias=0,normal-offset=0.75,offset-growth=sine").compared();
     let wanted = NormalOffset::default().with_texels(0.75).with_growth(OffsetGrowth::Sine).with_bias(Bias::ZERO);
     assert_eq!(offset, Depth::Any(wanted.into()));
-    assert_eq!(read("woo92,depth=godot").compared(), Depth::Engine(EngineBias::Godot));
+    assert_eq!(read("woo92,depth=godot").compared(), Depth::Engine(of_engine(EngineBias::Godot)));
     assert_eq!(refused("godot-pcf,bias=1t"), "bias = \"1t\": expected 0, with an engine's own bias as depth");
     assert_eq!(
         read("godot-pcf,depth=constant,bias=1t").compared(),
@@ -141,11 +145,7 @@ fn engines_presets_have_their_engines_default_bias() {
     for (spot, preset) in [true, false].into_iter().flat_map(|spot| PresetName::ENGINES.map(|preset| (spot, preset))) {
         let (view, seen) = lit(spot);
         let conditions = Conditions::of(&view, &seen).unwrap();
-        let conditions = match preset {
-            PresetName::BabylonPcf => conditions.with_depth_texture(true),
-            PresetName::UrpSoft => conditions.with_filter_radius(Some(2.5)),
-            _ => conditions,
-        };
+        let conditions = under(preset, conditions);
         let engine = preset.engine().unwrap();
         assert!(preset.name().starts_with(engine.name()), "{preset:?}");
         let given = engine.world(&[], &conditions).unwrap().least;
@@ -176,8 +176,138 @@ fn engines_presets_have_their_engines_default_bias() {
     }
     // Not all of them are nothing, and none is of a receiver that faces away.
     let (view, seen) = lit(false);
-    assert!(EngineBias::Bevy.of(&view, &seen).normal > 0.0);
-    assert_eq!(EngineBias::Bevy.of(&view, &Receiver { normal: -seen.normal, ..seen }), WorldBias::ZERO);
+    assert!(of_engine(EngineBias::Bevy).of(&view, &seen).normal > 0.0);
+    assert_eq!(of_engine(EngineBias::Bevy).of(&view, &Receiver { normal: -seen.normal, ..seen }), WorldBias::ZERO);
+}
+
+/// The defaults of three.js r187 (`LightShadow.js`, `shadowmap_pars_fragment.glsl.js`) and of HDRP's lights (`HDAdditionalLightData.cs`).
+#[test]
+fn engines_filters_have_the_engines_numbers() {
+    let three = read("three-vsm");
+    let filter = three.moments.filter;
+    assert_eq!((three.moments.prefilter, three.moments.samples, three.rule), (1.0, 8, Rule::First));
+    assert_eq!((filter.bleeding, filter.lit_from, filter.least_variance), (0.3, 0.95, 1e-7));
+    let other = read("three-vsm,prefilter=4,blur-samples=25,lit-from=1").moments;
+    assert_eq!((other.prefilter, other.samples, other.filter.lit_from), (4.0, 25, 1.0));
+    let hdrp = read("hdrp-pcss").hdrp;
+    assert_eq!((hdrp.diameter, hdrp.radius, hdrp.search, hdrp.blur, hdrp.rotate), (0.5, 0.025, 24, 16, true));
+    let other = read("hdrp-pcss,angular-diameter=2,shape-radius=0.5,search=8,blur=64,rotate=off").hdrp;
+    assert_eq!((other.diameter, other.radius, other.search, other.blur, other.rotate), (2.0, 0.5, 8, 64, false));
+    // A large lamp has a larger slope bias under HDRP's soft shadows, and under its other filters not.
+    let (view, seen) = lit(true);
+    let slope = |text: &str| {
+        let values = read(text);
+        let DepthName::Engine(bias) = values.depth else { panic!("{text}") };
+        values.of_engine(bias).of(&view, &seen).slope
+    };
+    assert_eq!([slope("hdrp-pcf5"), slope("hdrp-pcss"), slope("hdrp-pcss,slopeBias=1")], [2.5, 2.5, 5.0]);
+    assert!((slope("hdrp-pcss,shape-radius=2") - 2.5 * 3.6).abs() < 1e-6, "18 in place of 5");
+}
+
+/// The conditions that a preset's own filter adds to those of a receiver.
+fn under(preset: PresetName, conditions: Conditions) -> Conditions {
+    match preset {
+        PresetName::BabylonPcf => conditions.with_depth_texture(true),
+        PresetName::UrpSoft => conditions.with_filter_radius(Some(2.5)),
+        _ => conditions,
+    }
+}
+
+/// What `umbrage bias --engine` prints is a recipe's end, and gives the bias that was wanted.
+#[test]
+fn settings_of_engines_are_fed_back_as_they_are_printed() {
+    let all = PresetName::ENGINES.into_iter().flat_map(|preset| [(preset, true), (preset, false)]);
+    for (preset, spot) in all {
+        let (view, seen) = lit(spot);
+        let conditions = under(preset, Conditions::of(&view, &seen).unwrap());
+        let engine = preset.engine().unwrap();
+        for wanted in [
+            WorldBias::constant(0.3),
+            WorldBias::slope(4.0),
+            WorldBias::normal(0.05),
+            WorldBias { constant: 0.2, slope: 3.0, normal: 0.02 },
+        ] {
+            let found = engine.settings(&wanted, &conditions).unwrap();
+            let printed: Vec<String> = found.settings.iter().map(ToString::to_string).collect();
+            let text = format!("{},{}", preset.name(), printed.join(", "));
+            let recipe: Recipe = text.parse().unwrap();
+            let DepthName::Engine(bias) = recipe.values.depth else { panic!("{preset:?}") };
+            let given = recipe.values.of_engine(bias).of(&view, &seen);
+            for part in Part::ALL {
+                if found.unmet.iter().all(|unmet| unmet.part != part) {
+                    let (given, wanted) = (given.part(part), wanted.part(part));
+                    assert!(
+                        (given - wanted).abs() < 2e-5 * wanted.abs().max(0.1),
+                        "{text}: {part} {given}, not {wanted}"
+                    );
+                }
+            }
+            // The text that is written is as good, in TOML too.
+            assert_eq!(recipe.to_string().parse(), Ok(recipe), "{text} as {recipe}");
+            assert_eq!(Recipe::from_toml(&recipe.to_toml()), Ok(recipe), "{}", recipe.to_toml());
+            assert_eq!(recipe.unbiased(), Recipe::from(preset).unbiased(), "{text}");
+        }
+    }
+}
+
+#[test]
+fn settings_of_engines_have_the_engines_defaults_and_change_what_is_compared() {
+    let (view, seen) = lit(true);
+    for preset in PresetName::ENGINES {
+        let alone = Recipe::from(preset);
+        let compared = |recipe: &Recipe| {
+            let depth = recipe.values.compared();
+            let prepared = depth.prepared(&view, &seen);
+            let bounds = prepared.bounds(TexelRect::of_size(view.size()));
+            let place = prepared.region(&seen.footprint).centre;
+            [bounds.min, bounds.max, place.x, place.y].map(f32::to_bits)
+        };
+        for info in preset.engine().unwrap().about().settings {
+            let default = info.default.unwrap();
+            let text = format!("{},{}={default}", preset.name(), info.name);
+            let written: Recipe = text.parse().unwrap();
+            assert_eq!((written, written.to_string()), (alone, preset.name().into()), "{text}");
+            // A unit of a depth format is next to nothing, and a hundredth of all depth much.
+            let changed = [0.01, 0.25, 64.0].into_iter().any(|by| {
+                let other: Recipe = format!("{},{}={}", preset.name(), info.name, default + by).parse().unwrap();
+                compared(&other) != compared(&alone)
+            });
+            assert!(changed, "{preset:?}, {}", info.name);
+            // The engine's own arithmetic gives the same bits for a default that is given and for one that is not.
+            let conditions = under(preset, Conditions::of(&view, &seen).unwrap());
+            let engine = preset.engine().unwrap();
+            let [given, none] =
+                [&[(info.name, default)][..], &[]].map(|given| engine.world(given, &conditions).unwrap());
+            assert_eq!(given, none, "{text}");
+        }
+    }
+}
+
+#[test]
+fn settings_that_an_engine_does_not_have_are_refused_by_those_that_it_has() {
+    assert_eq!(
+        refused("godot-pcf,normalBias=1"),
+        "setting = \"normalBias\": expected shadow_bias or shadow_normal_bias, the settings of godot"
+    );
+    assert_eq!(
+        refused("woo92,normalBias=1"),
+        "setting = \"normalBias\": expected none, unless depth is an engine's bias"
+    );
+    assert_eq!(
+        refused("three-pcf,bias=1t"),
+        "bias = \"1t\": expected a finite number (depth from 0 at the near plane to 1 at the far one)"
+    );
+    for text in ["three-pcf,normalBias=NaN", "urp-hard,depth bias=1..x", "bevy-gaussian,shadow_normal_bias="] {
+        assert!(refused(text).contains(": expected a finite number ("), "{text}");
+    }
+    assert!(refused("three-pcf,depth=godot,normalBias=1").starts_with("setting = "));
+    // With any filter, wherever the depth is named; and a bias of the recipe's own where the depth is not an engine's.
+    let godot = read("woo92,shadow_bias=0.2,depth=godot");
+    assert_eq!(godot, read("woo92,depth=godot, shadow_bias = 0.2"));
+    assert_ne!(godot, read("woo92,depth=godot"));
+    assert_eq!(read("three-pcf,bias=1t,depth=constant").biased, Biased::constant(Bias::Texels(1.0)));
+    // Of a range, the end that gives what was wanted.
+    assert_eq!(read("urp-hard,depth bias=0.5..2"), read("urp-hard,depth bias=2"));
 }
 
 #[test]
@@ -232,7 +362,8 @@ fn a_preset_is_written_as_its_name_and_knows_each_field_once() {
         assert_eq!(preset.name().parse(), Ok(Recipe::from(preset)));
         assert!(preset.expects().contains(&Recipe::from(preset).stored()), "{preset:?}");
         let mut names: Vec<_> = Field::of(preset).map(|field| field.name).collect();
-        assert_eq!(help(preset).lines().count(), names.len());
+        let settings = preset.engine().map_or(0, |engine| engine.about().settings.len());
+        assert_eq!(help(preset).lines().count(), names.len() + settings);
         names.sort_unstable();
         names.dedup();
         assert_eq!(names.len(), Field::of(preset).count(), "{preset:?}");

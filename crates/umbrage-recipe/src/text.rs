@@ -1,7 +1,7 @@
 //! Recipes as text and as TOML.
 
 use crate::values::Values;
-use crate::{Field, PresetName, Recipe, RecipeError, kind};
+use crate::{Field, PresetName, Recipe, RecipeError, kind, settings};
 use std::fmt::{self, Write};
 use std::str::FromStr;
 use toml::{Table, Value};
@@ -15,25 +15,37 @@ impl Recipe {
         let presets = || kind::either(&PresetName::ALL.map(PresetName::name));
         let preset = PresetName::named(name).ok_or_else(|| RecipeError::value("recipe", name, presets()))?;
         let mut values = Values::of(preset);
+        let fields = fields.into_iter().collect::<Result<Vec<_>, _>>()?;
+        // Which settings there are depends on the depth, which may be written behind them.
+        for (name, text) in fields.iter().filter(|(name, _)| *name == "depth") {
+            Field::named(preset, name)?.read(&mut values, text)?;
+        }
+        let engine = values.engine();
         let mut given = Vec::new();
-        for field in fields {
-            let (name, text) = field?;
-            let field = Field::named(preset, name)?;
-            field.read(&mut values, &text)?;
+        for (name, text) in &fields {
+            // An engine's `bias` is its own: there is no other beside it.
+            if values.settings.read(engine, name, text)? {
+                continue;
+            }
+            let missing = |error| settings::missing(engine, name).unwrap_or(error);
+            let field = Field::named(preset, name).map_err(missing)?;
+            field.read(&mut values, text)?;
             given.push(field.name);
         }
         values.check(preset, &given)?;
         Ok(Self { preset, values, names_stored: given.contains(&"stored") })
     }
 
-    /// The fields in which it differs from its preset, as they are written; `stored` too where it is named.
+    /// The fields in which it differs from its preset, as they are written, then the settings of an engine; `stored` too where it is named.
     fn written(&self) -> impl Iterator<Item = (&'static str, String)> {
         let default = Values::of(self.preset);
         let differs = move |field: &&Field| {
             (field.name == "stored" && self.names_stored) || (field.get)(&self.values) != (field.get)(&default)
         };
         let fields = Field::of(self.preset).filter(differs);
-        fields.filter_map(|field| Some((field.name, (field.get)(&self.values)?)))
+        let settings = self.values.engine().into_iter().flat_map(|engine| self.values.settings.given(engine));
+        let settings = settings.map(|(info, value)| (info.name, value.to_string()));
+        fields.filter_map(|field| Some((field.name, (field.get)(&self.values)?))).chain(settings)
     }
 
     /// Reads a recipe from a TOML table: `preset` and the fields by their names. Numbers may be numbers, `on` and `off` booleans.
@@ -77,7 +89,9 @@ impl Recipe {
         };
         let mut lines = format!("preset = {}\n", Value::from(self.preset.name()));
         for (name, text) in self.written() {
-            let _ = writeln!(lines, "{name} = {}", value(&text));
+            // Names of settings may have spaces.
+            let quote = if name.contains(' ') { "\"" } else { "" };
+            let _ = writeln!(lines, "{quote}{name}{quote} = {}", value(&text));
         }
         lines
     }
@@ -96,7 +110,7 @@ impl FromStr for Recipe {
 /// A field's name and value.
 pub(crate) fn pair(part: &str) -> Result<(&str, String), RecipeError> {
     let (name, value) = part.split_once('=').ok_or_else(|| RecipeError::value(part, "", "field=value"))?;
-    Ok((name, value.into()))
+    Ok((name.trim_end(), value.trim_start().into()))
 }
 
 /// The shortest text that reads as the same recipe: the preset's name and the fields that differ from it.

@@ -1,16 +1,18 @@
-use crate::engine::{Depth, EngineBias};
+use crate::engine::{Depth, EngineBias, OfEngine};
 use crate::moments::MomentValues;
 use crate::pattern::PatternName;
 use crate::preset::ByEngine;
+use crate::settings::Settings;
 use crate::{PresetName, RecipeError};
 use umbrage_bake::{Deep, Refinement};
 use umbrage_depth::{Midpoint, SameSurface, Stored};
+use umbrage_engines::Engine;
 use umbrage_plane::Bias;
 use umbrage_sample::{Disc, Jittered};
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
 use umbrage_shadow::{
-    AnyDepth, BiasCone, Biased, Conditional, DualPlane, MapRadius, NormalOffset, OccluderFalloff, OnPlane, Opacity,
-    Pcf, Radius, SlopeScaled, Soft, Softness, Spread, VirtualWhen, Williams, presets,
+    AnyDepth, BiasCone, Biased, Conditional, DualPlane, HdrpPcss, MapRadius, NormalOffset, OccluderFalloff, OnPlane,
+    Opacity, Pcf, Radius, SlopeScaled, Soft, Softness, Spread, VirtualWhen, Williams, presets,
 };
 
 /// Which surface of a texel is stored, and how it is found.
@@ -76,6 +78,8 @@ pub struct Values {
     pub res_factor: f32,
     pub min_size: f32,
     pub depth: DepthName,
+    /// Of the engine whose bias `depth` is.
+    pub settings: Settings,
     pub biased: Biased,
     pub slope: f32,
     pub radius: Radius,
@@ -109,6 +113,8 @@ pub struct Values {
     pub maps: Option<u32>,
     pub window: Window,
     pub moments: MomentValues,
+    /// Its depth is left to `compared`.
+    pub hdrp: HdrpPcss,
 }
 
 impl Values {
@@ -150,9 +156,9 @@ impl Values {
                 Self { depth: DepthName::Constant, biased, ..parts.soft(&fernando) }
             }
             PresetName::Ordinary => Self { biased: Biased::constant(Bias::ZERO), res_factor: 1.0, ..parts },
-            PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
+            preset if preset.is_prefiltered() => {
                 let moments = MomentValues::of(preset);
-                Self { biased: Biased::constant(moments.filter.bias), moments, ..parts }
+                Self { biased: moments.filter.depth, moments, ..parts }
             }
             _ => parts,
         }
@@ -165,7 +171,8 @@ impl Values {
         let jittered = self.jittered.with_num_samples(samples);
         let biased = Biased::constant(Bias::ZERO);
         let depth = DepthName::Engine(bias);
-        Self { rule, pattern, jittered, res_factor: 0.0, min_size: half, depth, biased, ..self }
+        let moments = MomentValues::of(preset);
+        Self { rule, pattern, jittered, res_factor: 0.0, min_size: half, depth, biased, moments, ..self }
     }
 
     /// The values of presets that do not set others.
@@ -185,6 +192,7 @@ impl Values {
             res_factor: pcf.res_factor,
             min_size: pcf.min_size,
             depth: DepthName::Constant,
+            settings: Settings::default(),
             biased: pcf.depth,
             slope: cone.slope,
             radius: cone.radius,
@@ -213,6 +221,7 @@ impl Values {
             maps: None,
             window: Window::Given,
             moments: MomentValues::of(PresetName::Vsm),
+            hdrp: HdrpPcss::default(),
         }
     }
 
@@ -256,6 +265,15 @@ impl Values {
         OnPlane::default().with_bias(self.biased.low).with_slack(self.slack).with_reach(self.reach)
     }
 
+    /// The engine whose bias is compared.
+    pub fn engine(&self) -> Option<Engine> {
+        if let DepthName::Engine(bias) = self.depth { Some(bias.engine()) } else { None }
+    }
+
+    pub fn of_engine(&self, bias: EngineBias) -> OfEngine {
+        OfEngine { bias, settings: self.settings, lamp: self.hdrp.radius }
+    }
+
     /// The depth that is compared.
     pub fn compared(&self) -> Depth {
         let any: AnyDepth = match self.depth {
@@ -267,7 +285,7 @@ impl Values {
             }
             DepthName::SlopeScaled => self.scaled.with_constant(self.biased.low).into(),
             DepthName::NormalOffset => self.offset.with_bias(self.biased.low).into(),
-            DepthName::Engine(bias) => return Depth::Engine(bias),
+            DepthName::Engine(bias) => return Depth::Engine(self.of_engine(bias)),
         };
         Depth::Any(any)
     }
@@ -284,9 +302,9 @@ impl Values {
             PresetName::Burley | PresetName::Fernando => self.check_soft(given)?,
             PresetName::Auto => return self.check_auto(),
             PresetName::Williams78 | PresetName::WangMolnar94 | PresetName::Ordinary => return Ok(()),
-            PresetName::Vsm | PresetName::Esm | PresetName::Evsm2 | PresetName::Evsm4 | PresetName::Msm => {
-                return Ok(());
-            }
+            // They compare more than a bias there.
+            PresetName::ThreeVsm | PresetName::HdrpPcss => {}
+            preset if preset.is_prefiltered() => return Ok(()),
             _ => self.check_closer()?,
         }
         self.check_depth()

@@ -42,7 +42,11 @@ fn every_preset_bakes_the_map_it_expects_and_shadows_by_it() {
         assert!(recipe.expects().contains(&map.stored()), "{preset:?}");
         for storage in [Storage::Raw, Storage::Bbox, Storage::Tiled] {
             let shadow = recipe.bind(map.clone(), storage).unwrap();
-            assert_eq!((at(&*shadow, 0.1, 0.0), at(&*shadow, 6.1, 0.0)), (1.0, 0.0), "{preset:?}");
+            let (under, beside) = (at(&*shadow, 0.1, 0.0), at(&*shadow, 6.1, 0.0));
+            // What three.js keeps in 16 bits is off by up to 2⁻¹³ of the range between a quarter and a half of it: the floor shadows itself by what
+            // the inequality says of that, 1 − (1e-7/(1e-7 + 2⁻²⁶) − 0.3)/0.65.
+            let rounding = if preset == PresetName::ThreeVsm { 0.1227 } else { 0.0 };
+            assert!(under == 1.0 && (0.0..=rounding).contains(&beside), "{preset:?}: {under} and {beside}");
         }
     }
 }

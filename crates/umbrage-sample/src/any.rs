@@ -1,6 +1,6 @@
 use crate::{
     AreaTent, Castano, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key, Pattern,
-    Table, Taps, Tent, Uniform, Vogel,
+    Spiral, Table, Taps, Tent, Uniform, Vogel,
 };
 use fearless_simd::Simd;
 use umbrage_plane::Footprint;
@@ -38,6 +38,8 @@ pub enum AnyPattern {
     AreaTent(AreaTent),
     /// [`Vogel`].
     Vogel(Vogel),
+    /// [`Spiral`].
+    Spiral(Spiral),
 }
 
 /// The same expression over whichever pattern it is.
@@ -57,6 +59,7 @@ macro_rules! each {
             AnyPattern::Castano($pattern) => $answer,
             AnyPattern::AreaTent($pattern) => $answer,
             AnyPattern::Vogel($pattern) => $answer,
+            AnyPattern::Spiral($pattern) => $answer,
         }
     };
 }
@@ -84,7 +87,8 @@ from!(
     Disc,
     Castano,
     AreaTent,
-    Vogel
+    Vogel,
+    Spiral
 );
 
 impl Pattern for AnyPattern {

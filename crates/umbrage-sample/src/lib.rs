@@ -16,7 +16,8 @@
 //! | [`Disc`] | Burley 2006 | Hammersley points on a disc |
 //! | [`Castano`] | Castaño 2013; Bevy, Babylon.js | every texel, weighted by a bell of straight lines |
 //! | [`AreaTent`] | Unity's pipelines | every texel, weighted by the area of a triangle over it |
-//! | [`Vogel`] | three.js, Godot | bilinear comparisons on a disc |
+//! | [`Vogel`] | three.js, Godot, Unity's HDRP | bilinear comparisons on a disc |
+//! | [`Spiral`] | Unity's HDRP | single taps on the same disc |
 //! | [`AnyPattern`] | | any of them, chosen when the program runs |
 //!
 //! ```
@@ -59,6 +60,7 @@ mod grid;
 mod inside_quad;
 mod jittered;
 mod key;
+mod spiral;
 mod table;
 mod taps;
 mod tent;
@@ -75,6 +77,7 @@ pub use gaussian::Gaussian;
 pub use inside_quad::{InsideQuadReject, InsideQuadWarp};
 pub use jittered::Jittered;
 pub use key::Key;
+pub use spiral::Spiral;
 pub use table::Table;
 pub use taps::{Pattern, Tap, Taps, each_tap};
 pub use tent::Tent;

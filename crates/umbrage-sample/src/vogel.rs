@@ -7,7 +7,7 @@ use fearless_simd::{Simd, f32x16, prelude::*};
 use umbrage_plane::Footprint;
 
 /// The golden angle, π(3 − √5), in turns.
-const GOLDEN: f32 = 0.381_966;
+pub(crate) const GOLDEN: f32 = 0.381_966;
 
 /// Bilinear comparisons on Vogel's disc: sample k of n has the radius √((k + ½)/n) and the angle k·π(3 − √5), and each is the four texels around it, weighted by
 /// nearness. The disc is inscribed in the region less a texel on each side, so that a region of a half-extent of r + 1 has a disc of radius r.

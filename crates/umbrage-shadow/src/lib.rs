@@ -47,6 +47,7 @@ mod mean;
 pub mod presets;
 mod probe;
 mod query;
+mod settled;
 mod surfaces;
 
 pub use depths::{
@@ -56,8 +57,8 @@ pub use depths::{
 pub use explanation::{Explanation, Question};
 pub use fearless_simd::{Simd, f32x16};
 pub use filters::{
-    Conditional, DualPlane, FilteredDepth, FromMoments, IntegerFirst, MapRadius, OccluderFalloff, Opacity, Pcf, Soft,
-    Softness, VirtualWhen, Williams, integer_first, moments, williams,
+    Conditional, DualPlane, FilteredDepth, FromMoments, HdrpPcss, IntegerFirst, MapRadius, OccluderFalloff, Opacity,
+    Pcf, Soft, Softness, VirtualWhen, Williams, integer_first, moments, williams,
 };
 pub use lights::{
     Around, AroundError, Bounded, Evaluate, LatLong, LatLongError, Mean, Shadow, ShadowMap, Tags, Through, Unshadowed,

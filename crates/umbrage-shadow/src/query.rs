@@ -1,14 +1,15 @@
 use crate::area::Area;
 use crate::explained::{look, report};
+use crate::settled::{Passing, answer, by_rule, by_rules, ruled};
 use crate::surfaces::{Channel, Met, Seen, Surfaces};
 use crate::{Compared, Probe, ReceiverDepth};
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::{IVec2, Vec2};
 use std::fmt;
 use std::sync::Arc;
-use umbrage_depth::{DepthMap, Translucent};
-use umbrage_plane::{DepthRange, Footprint, Receiver, Verdict, View};
-use umbrage_sample::{Key, Pattern, Taps};
+use umbrage_depth::DepthMap;
+use umbrage_plane::{DepthRange, Footprint, Receiver, View};
+use umbrage_sample::{Centre, Key, Pattern, Taps};
 
 /// Combines what a map stores around a receiver into a fraction in shadow.
 ///
@@ -131,10 +132,27 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
         Footprint::boxed(centre, half.max(own.half + (own.centre - centre).abs()).min(self.limit()))
     }
 
+    /// A box of half-extents `half` (texels) about the point, whatever the receiver's footprint, at most a quarter of the map to each side.
+    #[inline(always)]
+    pub(crate) fn boxed(&self, half: Vec2) -> Footprint {
+        Footprint::boxed(self.receiver.texel.as_vec2(), half.min(self.limit()))
+    }
+
     /// Greatest half-extents of any region: a quarter of the map.
     #[inline(always)]
     fn limit(&self) -> Vec2 {
         self.view().size().as_vec2() * 0.25
+    }
+
+    /// Where the receiver's own point is looked up, and the depth that is compared there.
+    #[inline(always)]
+    pub(crate) fn at_point(&self, depth: &impl ReceiverDepth) -> (Vec2, f32) {
+        let compared = depth.prepared(self.view(), self.receiver);
+        let region = compared.region(&Footprint::boxed(self.receiver.texel.as_vec2(), Vec2::ZERO));
+        let mut found = (region.centre, f32::NAN);
+        let one = |taps: &Taps<S>| found.1 = compared.lanes(self.simd, taps)[0];
+        Centre.taps(self.simd, &region, self.key, one);
+        found
     }
 
     /// The result where the place of a texel position alone settles it by the view's rules: 0 lit, 1 in shadow.
@@ -437,68 +455,4 @@ impl<S: Simd, M, P> fmt::Debug for Query<'_, S, M, P> {
 #[inline(always)]
 fn nearer<S: Simd, P>(_: &mut P, compared: f32x16<S>, stored: f32x16<S>, _: u32) -> u32 {
     compared.simd_gt(stored).to_bitmask() as u32
-}
-
-/// What a deep map lets through at taps.
-struct Passing<'a> {
-    deep: &'a dyn Translucent,
-    channel: Channel,
-    view: &'a View,
-    /// Whether all taps lie inside the map and the cone.
-    inside: bool,
-    weighted: bool,
-}
-
-impl Passing<'_> {
-    /// Adds what does not pass at each tap, and the taps' weights. Apart from the loop around it, because that is compiled many times.
-    #[inline(never)]
-    fn add<S: Simd>(&self, taps: &Taps<S>, compared: &[f32; 16], (hits, count): (&mut f32, &mut f32)) {
-        for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
-            let weight = if self.weighted { taps.weight[i] } else { 1.0 };
-            *count += weight;
-            *hits += weight * self.dark(taps.tap(i).at, compared[i]);
-        }
-    }
-
-    /// What does not pass at one tap.
-    fn dark(&self, at: Vec2, compared: f32) -> f32 {
-        let passes = || self.deep.transmittance(at.floor().as_ivec2(), compared);
-        let ruled = ruled(self.view, self.inside, at);
-        ruled.unwrap_or_else(|| 1.0 - self.channel.of(passes(), self.deep.is_grey()))
-    }
-}
-
-/// The hits of a batch of taps with those outside the map or the cone settled by the view's rules (Woo 1992). Few regions reach
-/// out, so that this stands apart from the loop around it, which is compiled many times.
-#[inline(never)]
-fn by_rules<S: Simd>(view: &View, taps: &Taps<S>, mut nearer: u32) -> u32 {
-    for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
-        match by_rule(view, taps.tap(i).at) {
-            Some(dark) if dark > 0.0 => nearer |= 1 << i,
-            Some(_) => nearer &= !(1 << i),
-            None => {}
-        }
-    }
-    nearer
-}
-
-/// The result of one tap whose place settles it, where not all taps are known to lie inside the map and the cone.
-fn ruled(view: &View, inside: bool, texel: Vec2) -> Option<f32> {
-    if inside { None } else { by_rule(view, texel) }
-}
-
-/// The result of one tap whose place settles it.
-#[inline(always)]
-fn by_rule(view: &View, texel: Vec2) -> Option<f32> {
-    answer(view.rules().verdict(view.locate(texel)))
-}
-
-/// The fraction in shadow that a verdict stands for; `None` where the map must be looked up.
-#[inline(always)]
-pub(crate) fn answer(verdict: Verdict) -> Option<f32> {
-    match verdict {
-        Verdict::Lit => Some(0.0),
-        Verdict::Shadowed => Some(1.0),
-        Verdict::Compare => None,
-    }
 }

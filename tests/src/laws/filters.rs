@@ -6,11 +6,11 @@ use umbrage_depth::{DepthMap, Map, MomentMap, Moments};
 use umbrage_plane::Bias;
 use umbrage_sample::{
     AnyPattern, AreaTent, Castano, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered,
-    Table, Tent, Uniform, Vogel,
+    Spiral, Table, Tent, Uniform, Vogel,
 };
 use umbrage_shadow::williams::{Dither, Guard, Lookup};
 use umbrage_shadow::{
-    AnyDepth, BiasCone, Biased, Conditional, DualPlane, FilteredDepth, FromMoments, IntegerFirst, MapRadius,
+    AnyDepth, BiasCone, Biased, Conditional, DualPlane, FilteredDepth, FromMoments, HdrpPcss, IntegerFirst, MapRadius,
     NormalOffset, OnPlane, Opacity, Pcf, Radius, SlopeScaled, Soft, Softness, VirtualWhen, Williams, presets,
 };
 
@@ -47,6 +47,7 @@ pub fn every_filter() -> Vec<Subject> {
         Subject::new("castaño's bell, slope-scaled", reeves(Castano::Seven.into(), SlopeScaled::default().into())),
         Subject::new("unity's tent, offset", reeves(AreaTent.into(), NormalOffset::default().into())),
         Subject::new("vogel's disc", reeves(Vogel::default().into(), Biased::constant(Bias::Texels(1.0)).into())),
+        Subject::new("a spiral", reeves(Spiral::default().into(), Biased::constant(Bias::Texels(1.0)).into())),
         Subject::new("whole units first", IntegerFirst::default()),
         Subject::new(
             "depths filtered first",
@@ -69,6 +70,11 @@ pub fn every_filter() -> Vec<Subject> {
         Subject::new("burley, by the light's size", burley().with_softness(light(0.5))),
         Subject::new("burley, offset", burley().with_depth(AnyDepth::from(NormalOffset::default()))),
         Subject::new("burley, on the plane", burley().with_depth(AnyDepth::from(OnPlane::default().with_slack(1.0)))),
+        Subject::new("hdrp's soft shadows", HdrpPcss::default().with_depth(AnyDepth::from(NormalOffset::default()))),
+        Subject::new(
+            "hdrp's, of large lights",
+            HdrpPcss::default().with_diameter(9.0).with_radius(0.5).with_search(64).with_blur(33),
+        ),
         Subject::new("a stranger's variance", Variance::default()),
         Subject::new(
             "a stranger's soft shadow",
@@ -97,5 +103,7 @@ pub fn prefiltered() -> Vec<Subject> {
         Subject::new("evsm2", presets::evsm2().filter).through(|map| with(Moments::EVSM2, map)),
         Subject::new("evsm4", presets::evsm4().filter).through(|map| with(Moments::EVSM4, map)),
         Subject::new("msm", presets::msm().filter).through(|map| with(Moments::Four, map)),
+        Subject::new("mean and deviation", FromMoments::default().with_bleeding(0.3).with_lit_from(0.95))
+            .through(|map| with(Moments::Deviation { samples: 8 }, map)),
     ]
 }

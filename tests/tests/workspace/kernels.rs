@@ -5,7 +5,7 @@ use umbrage_depth::{DepthMap, Map, Raw, Tiled};
 use umbrage_plane::{Bias, Kind, Receiver, Sampling, Verdict, View, vectorized};
 use umbrage_sample::{
     AnyPattern, AreaTent, Castano, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key,
-    Pattern, Table, Tent, Uniform, Vogel, each_tap,
+    Pattern, Spiral, Table, Tent, Uniform, Vogel, each_tap,
 };
 use umbrage_shadow::{
     AnyDepth, BiasCone, Biased, Filter, NormalOffset, OffsetGrowth, OnPlane, Pcf, Radius, ReceiverDepth, ShadowMap,
@@ -82,6 +82,7 @@ fn r87_13_r87_22_simd_and_culling_agree_with_one_tap_at_a_time() {
     any(Castano::Seven, &maps);
     any(AreaTent, &maps);
     any(Vogel::default(), &maps);
+    any(Spiral::default(), &maps);
 }
 
 /// Depth ranges settle regions under a cone and on planes of any reach, and change no answer.

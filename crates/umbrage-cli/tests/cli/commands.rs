@@ -197,13 +197,22 @@ fn lists_are_complete() {
     assert!(recipes.starts_with("auto "), "{recipes}");
     // Engines stand under a heading of their own.
     let (papers, engines) = recipes.split_once("\n\nEngines' defaults").expect("a heading");
-    assert_eq!((papers.lines().count(), engines.lines().count()), (14, 1 + 10), "{recipes}");
+    assert_eq!((papers.lines().count(), engines.lines().count()), (14, 1 + 12), "{recipes}");
     assert!(engines.lines().nth(1).is_some_and(|line| line.starts_with("three-pcf ")), "{recipes}");
     let woo = good(&["recipes", "woo92"]).out;
     assert!(woo.contains("samples= [16]: a whole number from 1 to 65536"), "{woo}");
+    let urp = good(&["recipes", "urp-hard"]).out;
+    assert!(
+        urp.contains("\ndepth bias= [1]: a finite number (texels times the filter's radius, along the ray); "),
+        "{urp}"
+    );
     let json: serde_json::Value = serde_json::from_str(&good(&["recipes", "--json"]).out).expect("JSON");
     assert_eq!((&json[0]["name"], &json[0]["engine"]), (&"auto".into(), &serde_json::Value::Null));
     assert_eq!((&json[14]["name"], &json[14]["engine"]), (&"three-pcf".into(), &"three".into()));
+    assert_eq!(
+        (&json[14]["settings"][1]["name"], &json[0]["settings"]),
+        (&"normalBias".into(), &serde_json::json!([]))
+    );
     assert!(good(&["help"]).out.contains("Usage: umbrage"));
     assert!(good(&["--version"]).out.starts_with("umbrage "));
 }

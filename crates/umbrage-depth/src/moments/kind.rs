@@ -1,4 +1,4 @@
-/// Which moments of its depths a [`MomentMap`](crate::MomentMap) keeps, that is, means of functions of them.
+/// Which moments of its depths a [`MomentMap`](crate::MomentMap) keeps, that is, means of functions of them, or what is made of such means.
 ///
 /// Depths are scaled to 0..=1 as [`MomentSource::scaled`](crate::MomentSource::scaled) says. Exponents are per unit of what they multiply. Those that
 /// 32-bit floats cannot hold are lowered to the largest that they can, negative ones and NaN count as 0.
@@ -21,6 +21,19 @@ pub enum Moments {
     },
     /// The first four powers of the depth: moment shadow maps (Peters & Klein 2015). Four channels.
     Four,
+    /// The mean of the depth and the standard deviation about it: `VSMShadowMap` of three.js (r187, `vsm.glsl.js` and `VSMPass` in `WebGLShadowMap.js`). Two
+    /// channels, each rounded to a 16-bit float, on the scale of screen depth.
+    ///
+    /// The blur is a box of `prefilter` texels to each side (three's `radius`). First, in each column, this many texels at even distances from one side to the
+    /// other give a mean and a deviation; then, in each row, as many places do, at which both are interpolated linearly before the deviation is squared. What
+    /// is interpolated that way is not the variance of all texels: it is smaller between different deviations. Roundings are to the nearest, where a graphics
+    /// driver may cut off.
+    ///
+    /// There are no coarser levels.
+    Deviation {
+        /// Samples along a column and along a row, from 1 to [`Moments::MOST_SAMPLES`]; `blurSamples` of three.js, 8 there.
+        samples: u32,
+    },
 }
 
 impl Moments {
@@ -35,18 +48,20 @@ impl Moments {
     pub const MOST_EXPONENT: f32 = 44.0;
     /// Largest exponent of [`Moments::Exponential`].
     pub const MOST_SHARPNESS: f32 = 88.0;
+    /// Most samples of [`Moments::Deviation`] along a row.
+    pub const MOST_SAMPLES: u32 = 256;
 
     /// Floats a texel.
     #[must_use]
     pub const fn channels(self) -> usize {
         match self {
             Self::Exponential { .. } => 1,
-            Self::Variance | Self::ExponentialVariance { negative: None, .. } => 2,
+            Self::Variance | Self::ExponentialVariance { negative: None, .. } | Self::Deviation { .. } => 2,
             Self::ExponentialVariance { negative: Some(_), .. } | Self::Four => 4,
         }
     }
 
-    /// The same with exponents that 32-bit floats can hold.
+    /// The same with exponents that 32-bit floats can hold, and with as many samples as may be.
     #[must_use]
     pub(crate) fn held(self) -> Self {
         // NaN becomes 0.
@@ -58,6 +73,7 @@ impl Moments {
                 positive: within(positive, Self::MOST_EXPONENT),
                 negative: negative.map(|exponent| within(exponent, Self::MOST_EXPONENT)),
             },
+            Self::Deviation { samples } => Self::Deviation { samples: samples.clamp(1, Self::MOST_SAMPLES) },
         }
     }
 
@@ -83,6 +99,8 @@ impl Moments {
                 let square = depth * depth;
                 [depth, square, square * depth, square * square]
             }
+            // One texel deviates from nothing.
+            Self::Deviation { .. } => [depth, 0.0, 0.0, 0.0],
         }
     }
 }

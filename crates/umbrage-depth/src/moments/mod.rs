@@ -11,7 +11,7 @@ use crate::{DepthMap, Raw, Stored, rows};
 use fearless_simd::{Simd, f32x16};
 use glam::{IVec2, Vec2};
 use pyramid::{Level, MOST_BLUR};
-use umbrage_plane::{TexelRect, View};
+use umbrage_plane::{Kind, TexelRect, View};
 
 /// A map with moments of its depths: means, over regions of any size, from which a filter concludes how much of a region is nearer than a
 /// receiver without looking at its texels.
@@ -47,20 +47,25 @@ impl MomentMap {
     /// The moments of a map's depths, those of the nearest surfaces where it holds several.
     ///
     /// `prefilter` is the standard deviation, in texels, of a normal law by which the moments are blurred along rows and columns, as far as
-    /// three standard deviations reach. Beyond an edge of the map lies what lies on it. 0, NaN and negative numbers are none; more than 64
+    /// three standard deviations reach; for [`Moments::Deviation`] it is how far a box reaches to each side. Beyond an edge of the map lies what lies on it. 0, NaN and negative numbers are none; more than 64
     /// counts as 64. Coarser levels are means of two by two texels. Sums are f64, and rounded once for each level.
     #[must_use]
     pub fn of(map: &impl DepthMap, kind: Moments, prefilter: f32) -> Self {
         let (depths, kind) = (Raw::copy_of(map), kind.held());
         let prefilter = if prefilter > 0.0 { prefilter.min(MOST_BLUR) } else { 0.0 };
         let (nearest, span) = range(depths.depths());
-        let scaled: Vec<f64> = depths.depths().iter().map(|depth| texel(*depth, nearest, span)).collect();
-        let finest = Level::finest(map.view().size(), &scaled, kind, prefilter);
-        let levels = std::iter::successors(Some(finest), Level::coarser).collect();
+        let size = map.view().size();
+        let levels = if let Moments::Deviation { samples } = kind {
+            let scaled: Vec<f64> = depths.depths().iter().map(|depth| on_screen(map.view(), *depth)).collect();
+            vec![Level::deviations(size, &scaled, prefilter, samples)]
+        } else {
+            let scaled: Vec<f64> = depths.depths().iter().map(|depth| texel(*depth, nearest, span)).collect();
+            std::iter::successors(Some(Level::finest(size, &scaled, kind, prefilter)), Level::coarser).collect()
+        };
         Self { depths, kind, prefilter, nearest, span, levels }
     }
 
-    /// Standard deviation of the blur, texels.
+    /// Standard deviation of the blur, or how far its box reaches to each side ([`Moments::Deviation`]), texels.
     pub fn prefilter(&self) -> f32 {
         self.prefilter
     }
@@ -70,7 +75,7 @@ impl MomentMap {
         self.depths.depths()
     }
 
-    /// Number of levels, the finest included: the last is a single texel.
+    /// Number of levels, the finest included: the last is a single texel, unless there is only one ([`Moments::Deviation`]).
     pub fn levels(&self) -> usize {
         self.levels.len()
     }
@@ -83,6 +88,9 @@ impl MomentSource for MomentMap {
 
     #[inline(always)]
     fn scaled(&self, depth: f32) -> f64 {
+        if let Moments::Deviation { .. } = self.kind {
+            return on_screen(self.depths.view(), depth);
+        }
         ((f64::from(depth) - self.nearest) / self.span).clamp(0.0, 1.0)
     }
 
@@ -116,6 +124,16 @@ fn range(depths: &[f32]) -> (f64, f64) {
 /// A texel's depth, scaled.
 fn texel(depth: f32, nearest: f64, span: f64) -> f64 {
     if depth == f32::INFINITY { 1.0 } else { (f64::from(depth) - nearest) / span }
+}
+
+/// Screen depth of a depth of a view's own kind, within 0..=1.
+fn on_screen(view: &View, depth: f32) -> f64 {
+    let depth = f64::from(depth);
+    if view.kind() == Kind::Screen || depth.is_nan() || depth == f64::INFINITY {
+        return depth.clamp(0.0, 1.0);
+    }
+    // Nothing stands before the near plane, and at the eye there is no screen depth.
+    view.with_kind(Kind::Screen).key(depth.max(view.near())).clamp(0.0, 1.0)
 }
 
 impl DepthMap for MomentMap {

@@ -2,6 +2,7 @@
 
 use crate::Moments;
 use glam::{DVec2, UVec2};
+use half::f16;
 
 /// Largest standard deviation of the blur, texels.
 pub(super) const MOST_BLUR: f32 = 64.0;
@@ -36,6 +37,48 @@ impl Level {
             }
         }
         Self { size, channels, values }
+    }
+
+    /// The only level of [`Moments::Deviation`], of screen depths that are given row by row: a box of `reach` texels to each side.
+    pub fn deviations(size: UVec2, depths: &[f64], reach: f32, samples: u32) -> Self {
+        let (width, height) = (size.x as usize, size.y as usize);
+        let last = (size - 1).as_dvec2();
+        let rounded = |[mean, square]: [f64; 2]| {
+            let [mean, square] = [mean, square].map(|sum| sum / f64::from(samples));
+            [mean, (square - mean * mean).max(0.0).sqrt()].map(|value| f64::from(f16::from_f64(value)))
+        };
+        // From one side of the box to the other, in texels; its middle alone where there is one sample.
+        let ways = || {
+            let share = |i: u32| if samples > 1 { 2.0 * f64::from(i) / f64::from(samples - 1) - 1.0 } else { 0.0 };
+            (0..samples).map(move |i| share(i) * f64::from(reach))
+        };
+        let mut columns = Vec::with_capacity(depths.len());
+        for y in 0..height {
+            let rows: Vec<usize> =
+                ways().map(|way| (y as f64 + 0.5 + way).floor().clamp(0.0, last.y) as usize).collect();
+            for x in 0..width {
+                let of = |row: &usize| depths[row * width + x];
+                let sum = |[mean, square]: [f64; 2], depth: f64| [mean + depth, square + depth * depth];
+                columns.push(rounded(rows.iter().map(of).fold([0.0; 2], sum)));
+            }
+        }
+        let mut values = Vec::with_capacity(2 * depths.len());
+        for row in columns.chunks_exact(width) {
+            for x in 0..width {
+                let of = |way: f64| {
+                    let place = (x as f64 + way).clamp(0.0, last.x);
+                    let left = place as usize;
+                    let right = (left + 1).min(width - 1);
+                    let share = place - place.floor();
+                    [0, 1].map(|channel| row[left][channel] + (row[right][channel] - row[left][channel]) * share)
+                };
+                let sum = |[mean, square]: [f64; 2], [depth, deviation]: [f64; 2]| {
+                    [mean + depth, square + (deviation * deviation + depth * depth)]
+                };
+                values.extend(rounded(ways().map(of).fold([0.0; 2], sum)).map(|value| value as f32));
+            }
+        }
+        Self { size, channels: 2, values }
     }
 
     /// The next coarser level: means over two by two texels. Where the last column or row has no neighbour, it counts twice. `None` for a single texel.

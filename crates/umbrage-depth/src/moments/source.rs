@@ -10,6 +10,9 @@ pub trait MomentSource {
     /// every receiver behind the farthest depth by an eighth of the range or more. So a receiver behind all that is stored is behind it here too, and
     /// nothing is behind where no surface is. Renderers fit the range of their depths likewise.
     ///
+    /// [`Moments::Deviation`] has another scale: screen depth, 0 at the near plane and 1 at the far one and where no surface is, whatever kind of depth the map
+    /// stores (a distance from the eye counts as one along the axis).
+    ///
     /// Depths before the nearest are 0. The range counts as at least 2⁻¹⁶ of the larger of its ends, so that roundings stay
     /// small in a map of one depth. NaN stays NaN; in a map without a surface every finite depth is 0.
     fn scaled(&self, depth: f32) -> f64;

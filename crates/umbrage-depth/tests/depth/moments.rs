@@ -2,7 +2,7 @@
 
 use glam::{DVec3, UVec2, Vec2};
 use umbrage_depth::{DeepMap, DepthMap, Map, MomentMap, MomentSource, Moments, Raw, Step, Storage, Stored};
-use umbrage_plane::{View, mix32};
+use umbrage_plane::{Kind, View, mix32};
 
 const KINDS: [Moments; 5] = [Moments::Variance, Moments::ESM, Moments::EVSM2, Moments::EVSM4, Moments::Four];
 
@@ -164,4 +164,94 @@ fn deep_maps_give_their_nearest_surfaces_and_empty_maps_nothing_to_be_behind() {
         (empty.scaled(0.0), empty.scaled(1e30), empty.at(Vec2::ONE, 1.0)[..2].to_vec()),
         (0.0, 0.0, vec![1.0; 2])
     );
+}
+
+/// A number from 0 to 1 as the nearest of 11 binary digits, as 16-bit floats have it down to 2⁻¹⁴, and on the grid of 2⁻²⁴ below that.
+fn half(value: f64) -> f64 {
+    let step = if value < 2f64.powi(-14) { 2f64.powi(-24) } else { 2f64.powi(value.log2().floor() as i32 - 10) };
+    (value / step).round_ties_even() * step
+}
+
+/// Both passes of `vsm.glsl.js` (three.js r187), pixel by pixel: `gl_FragCoord.xy`, texture coordinates of 0..1, the nearest texel of the depth
+/// texture, then linear interpolation of what the first pass wrote.
+fn passes_of_three(depths: &[f64], size: UVec2, radius: f64, samples: u32) -> Vec<[f64; 2]> {
+    let (width, height) = (f64::from(size.x), f64::from(size.y));
+    let fetch = |from: &dyn Fn(usize) -> [f64; 2], x: f64, y: f64| {
+        let [x, y] = [x.clamp(0.0, width - 1.0), y.clamp(0.0, height - 1.0)];
+        from(y as usize * size.x as usize + x as usize)
+    };
+    let nearest = |u: f64, v: f64| fetch(&|texel| [depths[texel], 0.0], (u * width).floor(), (v * height).floor())[0];
+    let offset = |i: u32| if samples <= 1 { 0.0 } else { -1.0 + f64::from(i) * 2.0 / (f64::from(samples) - 1.0) };
+    let written = |mean: f64, squared_mean: f64| {
+        let (mean, squared_mean) = (mean / f64::from(samples), squared_mean / f64::from(samples));
+        [half(mean), half((squared_mean - mean * mean).max(0.0).sqrt())]
+    };
+    let pixels = || (0..size.y).flat_map(|y| (0..size.x).map(move |x| (f64::from(x) + 0.5, f64::from(y) + 0.5)));
+    let vertical: Vec<[f64; 2]> = pixels()
+        .map(|(x, y)| {
+            let depth = |i| nearest(x / width, (y + offset(i) * radius) / height);
+            written((0..samples).map(depth).sum(), (0..samples).map(|i| depth(i).powi(2)).sum())
+        })
+        .collect();
+    let linear = |u: f64, v: f64| {
+        let (x, y) = (u * width - 0.5, (v * height - 0.5).round());
+        let from = |texel: usize| vertical[texel];
+        let (left, right) = (fetch(&from, x.floor(), y), fetch(&from, x.floor() + 1.0, y));
+        let share = x - x.floor();
+        [left[0] * (1.0 - share) + right[0] * share, left[1] * (1.0 - share) + right[1] * share]
+    };
+    pixels()
+        .map(|(x, y)| {
+            let seen = |i| linear((x + offset(i) * radius) / width, y / height);
+            let squares = |i| seen(i)[1].powi(2) + seen(i)[0].powi(2);
+            written((0..samples).map(|i| seen(i)[0]).sum(), (0..samples).map(squares).sum())
+        })
+        .collect()
+}
+
+#[test]
+fn deviations_are_what_both_passes_of_three_write() {
+    let raw = map(19, 11, noise);
+    let size = raw.view().size();
+    for (radius, samples) in [(1.0f32, 8), (0.0, 8), (2.3, 8), (1.0, 1), (4.1, 5), (1.7, 2)] {
+        let moments = MomentMap::of(&raw, Moments::Deviation { samples }, radius);
+        assert_eq!((moments.levels(), moments.depths()), (1, raw.depths()));
+        // The range of the view is 0 to 100.
+        let depths: Vec<f64> = raw.depths().iter().map(|depth| f64::from(*depth / 100.0).min(1.0)).collect();
+        let wanted = passes_of_three(&depths, size, f64::from(radius), samples);
+        let mut apart = 0;
+        for (i, wanted) in (0..).zip(&wanted) {
+            let at = Vec2::new((i % size.x) as f32, (i / size.x) as f32) + 0.5;
+            let found = moments.at(at, 0.0);
+            assert_eq!(found, moments.at(at, 3.0), "there is one level");
+            for (found, wanted) in found.into_iter().zip(wanted) {
+                // What lies just between two 16-bit floats may go either way.
+                assert!((found - wanted).abs() <= 0.0005, "{found}, not {wanted} at {at}");
+                apart += u32::from(found != *wanted);
+            }
+        }
+        assert!(apart * 50 <= size.element_product(), "{apart} differ: radius {radius}, {samples} samples");
+    }
+    let kept = |samples| MomentMap::of(&raw, Moments::Deviation { samples }, 1.0).kind();
+    assert_eq!([kept(0), kept(u32::MAX)], [1, 256].map(|samples| Moments::Deviation { samples }));
+}
+
+#[test]
+fn deviations_are_of_screen_depth_whatever_the_map_stores() {
+    let size = UVec2::splat(8);
+    let view = View::perspective(DVec3::Y * 9.0, DVec3::ZERO, DVec3::X, 0.7, 2.0, 18.0, size).unwrap();
+    for kind in [Kind::Axial, Kind::Screen] {
+        let view = view.with_kind(kind);
+        let stored = |zeta: f64| if kind == Kind::Screen { view.key(zeta) } else { zeta } as f32;
+        let depths = (0..64).map(|i| if i % 8 < 4 { stored(6.0) } else { f32::INFINITY }).collect();
+        let moments = MomentMap::of(&Raw::new(view, depths).unwrap(), Moments::Deviation { samples: 8 }, 0.0);
+        // f(ζ − n)/(ζ(f − n)).
+        let wanted = 18.0 * 4.0 / (6.0 * 16.0);
+        assert!((moments.scaled(stored(6.0)) - wanted).abs() < 1e-6, "{kind:?}");
+        assert_eq!(moments.at(Vec2::splat(2.5), 0.0)[..2], [0.75, 0.0], "{kind:?}");
+        assert_eq!(moments.at(Vec2::new(6.5, 2.5), 0.0)[..2], [1.0, 0.0], "{kind:?}");
+        assert_eq!((moments.scaled(stored(18.0)), moments.scaled(stored(2.0))), (1.0, 0.0), "{kind:?}");
+        assert_eq!((moments.scaled(f32::INFINITY), moments.scaled(f32::NEG_INFINITY)), (1.0, 0.0), "{kind:?}");
+        assert!(moments.scaled(f32::NAN).is_nan(), "{kind:?}");
+    }
 }

@@ -40,8 +40,9 @@ pub(super) const PREFILTERED: [Method; 5] =
     [("vsm", "vsm"), ("esm", "esm"), ("evsm2", "evsm2"), ("evsm4", "evsm4"), ("msm", "msm")];
 
 /// Engines' default filters.
-pub(super) const ENGINES: [Method; 10] = [
+pub(super) const ENGINES: [Method; 12] = [
     ("three-pcf", "three-pcf"),
+    ("three-vsm", "three-vsm"),
     ("babylon-none", "babylon-none"),
     ("babylon-pcf", "babylon-pcf"),
     ("filament-pcf", "filament-pcf"),
@@ -51,6 +52,7 @@ pub(super) const ENGINES: [Method; 10] = [
     ("urp-soft", "urp-soft"),
     ("hdrp-pcf5", "hdrp-pcf5"),
     ("hdrp-pcf7", "hdrp-pcf7"),
+    ("hdrp-pcss", "hdrp-pcss"),
 ];
 
 /// Index of a method by its name.

@@ -4,7 +4,7 @@ use glam::Vec2;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use umbrage_plane::Footprint;
-use umbrage_sample::{AreaTent, Castano, Key, Pattern, Tent, Vogel, each_tap};
+use umbrage_sample::{AreaTent, Castano, Density, Key, Pattern, Spiral, Tent, Vogel, each_tap};
 
 /// Texels by column and row, each with its share of all weight.
 type Kernel = BTreeMap<(i64, i64), f64>;
@@ -134,6 +134,33 @@ proptest! {
                 let [found, wanted] = [&found, &wanted].map(|kernel| kernel.get(texel).copied().unwrap_or(0.0));
                 prop_assert!((found - wanted).abs() < most + 2e-5, "{} samples, texel {:?}: {} instead of {}", n, texel, found, wanted);
             }
+        }
+    }
+}
+
+/// `ComputeFibonacciSpiralDiskSample` and `ComputeFibonacciSpiralDiskSampleClumped_Directional` of Unity's HDRP (`HDPCSS.hlsl`), whose table of 64 directions is
+/// (cos θ, sin θ) of i·π(3 − √5): some of it as it is printed there.
+#[test]
+fn hdrp_s_spirals_have_the_directions_of_its_table() {
+    let printed = [
+        (0, 1.0, 0.0),
+        (1, -0.737_368_878_078_319_7, 0.675_490_294_261_523_8),
+        (2, 0.087_425_724_716_959_88, -0.996_171_040_864_827_8),
+        (23, 0.219_481_369_246_378_65, -0.975_616_691_407_919_1),
+        (63, 0.920_578_930_215_781_7, 0.390_556_568_556_677_7),
+    ];
+    for (density, sample) in
+        [(Density::Uniform, (|i, n| (i / n + 0.5 / n).sqrt()) as fn(f64, f64) -> f64), (Density::Centred, |i, n| i / n)]
+    {
+        let spiral = Spiral::default().with_num_samples(64).with_density(density).with_rotate(false);
+        let mut taps = Vec::new();
+        let region = Footprint::boxed(Vec2::ZERO, Vec2::splat(1.0));
+        each_tap(&spiral, &region, Key::new(0, 0, 0), |tap| taps.push(tap.at.as_dvec2()));
+        assert_eq!(taps.len(), 64);
+        for (i, x, y) in printed {
+            let radius = sample(i as f64, 64.0);
+            let wanted = glam::DVec2::new(x, y) * radius;
+            assert!(taps[i].abs_diff_eq(wanted, 5e-5), "{density:?}, {i}: {} instead of {wanted}", taps[i]);
         }
     }
 }

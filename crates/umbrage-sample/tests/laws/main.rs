@@ -13,7 +13,7 @@ use twins::Twin;
 use umbrage_plane::Footprint;
 use umbrage_sample::{
     AreaTent, Castano, Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key,
-    Pattern, Table, Tap, Tent, Uniform, Vogel, each_tap, hammersley,
+    Pattern, Spiral, Table, Tap, Tent, Uniform, Vogel, each_tap, hammersley,
 };
 
 /// The one list. A new pattern is added here, and its twin in `twins`.
@@ -44,6 +44,9 @@ macro_rules! every_pattern {
         $law("area tent", &AreaTent $(, $more)*);
         $law("vogel", &Vogel::default() $(, $more)*);
         $law("vogel 13", &Vogel::default().with_num_samples(13).with_rotate(false) $(, $more)*);
+        $law("spiral", &Spiral::default() $(, $more)*);
+        let centred = Spiral::default().with_num_samples(37).with_density(Density::Centred).with_rotate(false);
+        $law("spiral, centred", &centred $(, $more)*);
     };
 }
 
@@ -276,6 +279,7 @@ fn taps_are_centred_on_the_region() {
     check("castano 7", mean(&Castano::Seven, &region, 1));
     check("area tent", mean(&AreaTent, &region, 1));
     check("vogel", mean(&Vogel::default(), &region, 4000));
+    check("spiral", mean(&Spiral::default(), &region, 4000));
 }
 
 /// Both methods of sampling inside the boundary weigh area alike: their mean is the quadrilateral's centroid.

@@ -4,7 +4,7 @@ use glam::Vec2;
 use umbrage_plane::Footprint;
 use umbrage_sample::{
     AreaTent, Castano, Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key,
-    Pattern, Table, Tap, Tent, Uniform, Vogel,
+    Pattern, Spiral, Table, Tap, Tent, Uniform, Vogel,
 };
 
 /// A pattern that has a naive twin.
@@ -105,6 +105,21 @@ impl Twin for Vogel {
         };
         let all = (0..n).flat_map(four).zip(0..);
         all.map(|((at, weight), index)| (index, Tap { weight, ..tap(region, key, index, at).1 })).collect()
+    }
+}
+
+impl Twin for Spiral {
+    fn naive(&self, region: &Footprint, key: Key) -> Vec<(u32, Tap)> {
+        let n = self.num_samples;
+        let start = if self.rotate { key.unit(0, 0) } else { 0.0 };
+        let at = |k: u32| {
+            let radius = match self.density {
+                Density::Uniform => ((k as f32 + 0.5) / n as f32).sqrt(),
+                Density::Centred => k as f32 / n as f32,
+            };
+            radius * turned(k as f32 * 0.381_966 + start) * region.half + region.centre
+        };
+        (0..n).map(|k| tap(region, key, k, at(k))).collect()
     }
 }
 

@@ -3,6 +3,7 @@
 mod conditional;
 mod dual_plane;
 mod filtered_depth;
+mod hdrp_pcss;
 pub mod integer_first;
 pub mod moments;
 mod pcf;
@@ -12,6 +13,7 @@ pub mod williams;
 pub use conditional::{Conditional, VirtualWhen};
 pub use dual_plane::DualPlane;
 pub use filtered_depth::FilteredDepth;
+pub use hdrp_pcss::HdrpPcss;
 pub use integer_first::IntegerFirst;
 pub use moments::FromMoments;
 pub use pcf::Pcf;

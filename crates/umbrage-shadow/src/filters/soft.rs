@@ -296,7 +296,7 @@ impl<D: ReceiverDepth> Soft<D> {
 
 /// World distance from the light of a stored depth.
 #[inline(always)]
-fn distance(view: &View, depth: f32) -> f64 {
+pub(super) fn distance(view: &View, depth: f32) -> f64 {
     match view.kind() {
         Kind::Axial | Kind::Radial => f64::from(depth),
         Kind::Screen => view.decode().zeta(depth),

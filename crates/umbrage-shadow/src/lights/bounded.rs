@@ -1,6 +1,6 @@
 use super::{Shadow, same_length};
 use crate::Explanation;
-use crate::query::answer;
+use crate::settled::answer;
 use glam::{DVec3, Vec3};
 use umbrage_plane::{SurfacePoint, View};
 use umbrage_sample::Key;

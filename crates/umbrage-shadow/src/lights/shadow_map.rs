@@ -1,6 +1,6 @@
 use super::parts::in_parts;
 use super::{Shadow, Unshadowed, by_channel, same_length};
-use crate::query::answer;
+use crate::settled::answer;
 use crate::surfaces::Channel;
 use crate::{Explanation, Filter, Probe, Query};
 use fearless_simd::Simd;

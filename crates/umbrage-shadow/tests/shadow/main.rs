@@ -6,6 +6,7 @@ mod biases;
 mod burley;
 mod deep;
 mod explained;
+mod hdrp_pcss;
 mod moments;
 mod reeves;
 mod tags;

@@ -1,11 +1,11 @@
 //! Inequalities for moments of depths: they bound what they are said to bound, they are reached where they are sharp, and the filter asks the moments that it says.
 
 use glam::{DVec2, DVec3, UVec2, Vec2, Vec3};
-use umbrage_depth::{DepthMap, MomentMap, Moments, Raw};
+use umbrage_depth::{DepthMap, MomentMap, MomentSource, Moments, Raw};
 use umbrage_plane::{Bias, Footprint, Kind, Receiver, SurfacePoint, View, cube_views, mix32};
 use umbrage_sample::Key;
 use umbrage_shadow::moments::{at_or_beyond, at_or_beyond_by_mean, before};
-use umbrage_shadow::{Around, FromMoments, Preset, Shadow, ShadowMap, presets};
+use umbrage_shadow::{Around, Filter, FromMoments, NormalOffset, Preset, Shadow, ShadowMap, presets};
 
 const KEY: Key = Key::new(15, 0, 0);
 
@@ -130,6 +130,10 @@ fn bare() -> FromMoments {
 }
 
 fn ask(filter: FromMoments, map: &impl DepthMap, receiver: &Receiver) -> f32 {
+    ask_any(filter, map, receiver)
+}
+
+fn ask_any(filter: impl Filter, map: &impl DepthMap, receiver: &Receiver) -> f32 {
     ShadowMap { filter, map }.fraction_of(receiver, KEY)
 }
 
@@ -162,7 +166,7 @@ fn no_shadow_is_darker_than_the_region_that_it_stands_for() {
                 for (kind, found) in KINDS.iter().zip(found) {
                     // Squares of exponentials have lost digits to their mean, and four moments most of them where values lie close together.
                     let rounding = match kind {
-                        Moments::Variance | Moments::Exponential { .. } => 1e-4,
+                        Moments::Variance | Moments::Deviation { .. } | Moments::Exponential { .. } => 1e-4,
                         Moments::ExponentialVariance { .. } => 5e-4,
                         Moments::Four => 5e-3,
                     };
@@ -352,4 +356,68 @@ fn maps_around_a_light_have_moments_each_its_own() {
         }
     }
     assert!(soft > 6, "blurred on each face: {soft}");
+}
+
+/// `getShadow` of three.js for `VSMShadowMap` (r187, `shadowmap_pars_fragment.glsl.js`): how much light there is, by a mean, a deviation and the depth that is compared.
+fn light_of_three(mean: f64, deviation: f64, z: f64) -> f64 {
+    if z <= mean {
+        return 1.0;
+    }
+    let variance = (deviation * deviation).max(0.000_000_1);
+    let d = z - mean;
+    let p_max = variance / (variance + d * d);
+    ((p_max - 0.3) / 0.65).clamp(0.0, 1.0)
+}
+
+#[test]
+fn deviations_shadow_as_three_s_variance_shadow_maps() {
+    let three = bare().with_bleeding(0.3).with_lit_from(0.95).with_least_variance(1e-7);
+    let raw = blocks(11);
+    let map = MomentMap::of(&raw, Moments::Deviation { samples: 8 }, 1.0);
+    let mut draws = Draws(3);
+    let (mut partly, mut cut) = (0, 0);
+    for _ in 0..5000 {
+        let at = Vec2::new(draws.unit() as f32, draws.unit() as f32) * 32.0;
+        // However large the footprint is: there are no coarser levels. The range of the view is 1 to 100.
+        let depth = 9.0 + 14.0 * draws.unit() as f32;
+        let seen = receiver(raw.view(), at, 6.0 * draws.unit() as f32, depth);
+        let [mean, deviation, ..] = map.at(at, 0.0);
+        let light = light_of_three(mean, deviation, (f64::from(depth) - 1.0) / 99.0);
+        let found = ask(three, &map, &seen);
+        assert!((f64::from(found) - (1.0 - light)).abs() < 2e-6, "{found}, not {} at {at}", 1.0 - light);
+        partly += u32::from(light > 0.0 && light < 1.0);
+        // Lit by the upper end alone, and dark by the lower.
+        cut += u32::from(ask(three.with_lit_from(1.0), &map, &seen) != found);
+    }
+    assert!(partly > 500 && cut > 500, "{partly} partly lit, {cut} by the upper end");
+    // An end at which nothing is left but what is wholly lit.
+    for end in [0.3, 0.0, -1.0] {
+        let found = |depth| ask(three.with_lit_from(end), &map, &receiver(raw.view(), Vec2::splat(9.3), 0.5, depth));
+        assert_eq!((found(99.0), found(2.0)), (1.0, 0.0), "{end}");
+    }
+    let seen = receiver(raw.view(), Vec2::splat(9.3), 0.5, 15.0);
+    let unchanged = [1.0, 2.0, f32::NAN].map(|end| ask(three.with_lit_from(end), &map, &seen).to_bits());
+    assert!(unchanged.iter().all(|bits| *bits == unchanged[0]));
+}
+
+#[test]
+fn a_receiver_that_is_moved_is_looked_up_where_it_was_moved_to() {
+    let raw = map(32, |x, _| if x < 16 { 5.0 } else { 20.0 });
+    let map = MomentMap::of(&raw, Moments::Variance, 0.0);
+    let offset = NormalOffset::default().with_texels(2.0);
+    // Tilted, so that its normal leads aside.
+    let normal = raw.view().direction_to_world(DVec3::new(0.8, 0.0, 0.6));
+    let (mut apart, mut partly) = (0, 0);
+    for i in 0..40 {
+        let world = raw.view().world_at(DVec2::new(13.0 + 0.1 * f64::from(i), 9.0), raw.view().key(20.0));
+        let seen = raw.view().receiver(&SurfacePoint::at(world, normal.as_vec3())).unwrap();
+        let found = ask_any(bare().with_depth(offset), &map, &seen);
+        let moved = seen.offset(raw.view(), offset.world(raw.view(), &seen)).unwrap();
+        assert!((moved.texel.x - seen.texel.x - 1.6).abs() < 1e-5, "{} from {}", moved.texel, seen.texel);
+        let wanted = ask(bare(), &map, &moved);
+        assert!((found - wanted).abs() < 1e-5, "{found}, not {wanted}");
+        apart += u32::from((found - ask(bare(), &map, &seen)).abs() > 0.1);
+        partly += u32::from(found > 0.1 && found < 0.9);
+    }
+    assert!(apart > 10 && partly > 3, "{apart} elsewhere, {partly} partly lit");
 }

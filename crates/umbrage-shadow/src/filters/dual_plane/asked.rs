@@ -2,7 +2,7 @@
 
 use super::parameters::DualPlane;
 use super::voters::Compared;
-use crate::query::answer;
+use crate::settled::answer;
 use crate::{Probe, Query};
 use fearless_simd::Simd;
 use glam::DVec2;

@@ -11,13 +11,14 @@
 //! | [`Moments::Exponential`] | [`at_or_beyond_by_mean`]: Markov's, of an exponential | exponential shadow maps, Annen et al. 2008 |
 //! | [`Moments::ExponentialVariance`] | Chebyshev's, of one exponential or the better of two | exponential variance shadow maps, Lauritzen & McCool 2008 |
 //! | [`Moments::Four`] | [`before`]: the sharp one for four moments | moment shadow maps ("Hamburger 4MSM"), Peters & Klein 2015 |
+//! | [`Moments::Deviation`] | Chebyshev's for one side, of a mean and a standard deviation | `VSMShadowMap` of three.js, r187 |
 
 mod bounds;
 
 pub use bounds::{at_or_beyond, at_or_beyond_by_mean, before};
 
 use super::williams::{four, lerp};
-use crate::{Filter, Probe, Query};
+use crate::{Biased, Filter, Probe, Query, ReceiverDepth};
 use fearless_simd::Simd;
 use glam::Vec2;
 use umbrage_depth::{DepthMap, MomentSource, Moments};
@@ -42,14 +43,17 @@ const ROUNDING: f64 = 1e-6;
 /// map sees are settled by its single texel, and moments do not reach across seams.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct FromMoments {
-    /// Moves the receiver toward the light. The exact fraction of a tilted plane before its own middle is a half, and the sharper the
+pub struct FromMoments<D = Biased> {
+    /// Which depth is compared: the receiver's own moved toward the light, by default. The exact fraction of a tilted plane before its own middle is a half, and the sharper the
     /// inequality the closer it comes to that: four moments need two steps or more.
-    pub bias: Bias,
+    pub depth: D,
     /// The part of the fraction that may be lit which counts as none, the rest being stretched to 0..=1 (Lauritzen 2007, GPU Gems 3, ch. 8,
     /// on light-bleeding reduction). 0 cuts nothing off; 1 and more leave only what is wholly lit, NaN and negative numbers are 0. Penumbrae become narrower
     /// by it.
     pub bleeding: f32,
+    /// The fraction that may be lit from which all counts as lit: what is between `bleeding` and this is stretched to 0..=1. 1, more and NaN change nothing; at
+    /// `bleeding` or below it, only what is wholly lit is left. three.js has 0.95 (r187).
+    pub lit_from: f32,
     /// Variance that counts at least, in squares of the scaled depth: what roundings are, and what a tilted plane has within a texel (Donnelly &
     /// Lauritzen 2006). Exponentials have it times the square of their slope at the mean. Not used by other kinds; NaN and negative numbers are 0.
     pub least_variance: f32,
@@ -59,26 +63,41 @@ pub struct FromMoments {
     pub moment_bias: f32,
 }
 
-umbrage_plane::builders!([] FromMoments {
-    with_bias bias: Bias, with_bleeding bleeding: f32, with_least_variance least_variance: f32, with_moment_bias moment_bias: f32
+umbrage_plane::builders!([D] FromMoments<D> {
+    with_bleeding bleeding: f32, with_lit_from lit_from: f32, with_least_variance least_variance: f32, with_moment_bias moment_bias: f32
 });
+
+impl<D> FromMoments<D> {
+    /// The same, comparing another depth.
+    #[must_use]
+    pub fn with_depth<E: ReceiverDepth>(self, depth: E) -> FromMoments<E> {
+        let Self { bleeding, lit_from, least_variance, moment_bias, .. } = self;
+        FromMoments { depth, bleeding, lit_from, least_variance, moment_bias }
+    }
+
+    /// The same, comparing the receiver's own depth moved toward the light.
+    #[must_use]
+    pub fn with_bias(self, bias: Bias) -> FromMoments {
+        self.with_depth(Biased::constant(bias))
+    }
+}
 
 impl Default for FromMoments {
     /// No bias, a fiftieth is cut off, a least variance of 10⁻⁶ and a moment bias of 3·10⁻⁷, for moments of 32 bits.
     fn default() -> Self {
-        Self { bias: Bias::ZERO, bleeding: 0.02, least_variance: 1e-6, moment_bias: 3e-7 }
+        let depth = Biased::constant(Bias::ZERO);
+        Self { depth, bleeding: 0.02, lit_from: 1.0, least_variance: 1e-6, moment_bias: 3e-7 }
     }
 }
 
-impl Filter for FromMoments {
+impl<D: ReceiverDepth> Filter for FromMoments<D> {
     #[inline(always)]
     fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32 {
-        let (view, receiver) = (query.view(), query.receiver());
-        let at = receiver.texel.as_vec2();
+        let view = query.view();
+        let (at, compared) = query.at_point(&self.depth);
         if let Some(dark) = query.placed(at) {
             return dark;
         }
-        let compared = receiver.nearer(view, self.bias);
         if view.locate(at) == Place::Outside {
             // Outside the map there is nothing to interpolate, only what a neighbour may store there.
             return query.texel(at.floor().as_ivec2()).dark(compared);
@@ -90,11 +109,20 @@ impl Filter for FromMoments {
         let level = (2.0 * query.region(1.0, 0.0).half.max_element()).max(1.0).log2();
         // Four texels of each of two levels.
         query.count(8);
-        self.over(moments, at, level, compared)
+        let Self { bleeding, lit_from, least_variance, moment_bias, .. } = *self;
+        Inequality { bleeding, lit_from, least_variance, moment_bias }.over(moments, at, level, compared)
     }
 }
 
-impl FromMoments {
+/// What a [`FromMoments`] concludes by, whatever it compares.
+struct Inequality {
+    bleeding: f32,
+    lit_from: f32,
+    least_variance: f32,
+    moment_bias: f32,
+}
+
+impl Inequality {
     /// The fraction in shadow by the moments at a place and a level. Apart from what is compiled for every map and machine.
     #[inline(never)]
     fn over(&self, map: &dyn MomentSource, at: Vec2, level: f32, compared: f32) -> f32 {
@@ -107,7 +135,8 @@ impl FromMoments {
             return 0.0;
         }
         let bleeding = f64::from(self.bleeding.max(0.0));
-        let kept = if bleeding < 1.0 { (lit - bleeding).max(0.0) / (1.0 - bleeding) } else { 0.0 };
+        let full = if self.lit_from < 1.0 { f64::from(self.lit_from) } else { 1.0 };
+        let kept = if bleeding < full { ((lit - bleeding).max(0.0) / (full - bleeding)).min(1.0) } else { 0.0 };
         (1.0 - kept) as f32
     }
 
@@ -117,6 +146,7 @@ impl FromMoments {
         let [first, second, ..] = moments;
         match kind {
             Moments::Variance => at_or_beyond(first, (second - first * first).max(least), depth),
+            Moments::Deviation { .. } => at_or_beyond(first, (second * second).max(least), depth),
             // What is compared is rounded as moments are.
             Moments::Exponential { .. } => at_or_beyond_by_mean(first, f64::from(kind.of(depth)[0] as f32)),
             Moments::ExponentialVariance { positive, negative } => {
