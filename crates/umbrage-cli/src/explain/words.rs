@@ -157,7 +157,7 @@ fn map(f: &mut fmt::Formatter<'_>, explanation: &Explanation, owners: &Owners) -
         };
         writeln!(
             f,
-            "  question {}{plane}: {} taps, {dark} of them dark, share {}",
+            "  look-up {}{plane}: {} taps, {dark} of them dark; {} in shadow",
             index + 1,
             question.taps.len(),
             question.share()

@@ -246,7 +246,7 @@ fn a_bias_detaches_shadows_near_what_throws_them() {
 fn the_words_are_for_people() {
     let said =
         good(&["explain", "gallery:table", "--size", "64x48", "--pixel", "32,30", "--recipe", "reeves87,bias=0"]).out;
-    for part in ["pixel 32,30 under ", "sees ", "in the map of 512 x 512", "question 1: ", "whose", "by rays"] {
+    for part in ["pixel 32,30 under ", "sees ", "in the map of 512 x 512", "look-up 1: ", "whose", "by rays"] {
         assert!(said.contains(part), "{part}: {said}");
     }
     let auto = good(&["explain", "gallery:table", "--size", "64x48", "--pixel", "32,30"]).out;
