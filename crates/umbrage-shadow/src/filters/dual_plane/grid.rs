@@ -12,8 +12,9 @@ use umbrage_plane::TexelRect;
 pub(super) struct Grid<'a, 'b, F: ?Sized, const N: usize, const CHUNKS: usize> {
     pub asked: &'b Asked<'a, F>,
     pub rect: TexelRect,
-    /// The samples' votes, each once, and how many there are.
+    /// The samples' votes, each once.
     pub voters: ArrayVec<Voters, CHUNKS>,
+    /// The number of samples.
     pub samples: u32,
     /// For each place, row by row, its sample, where that is of this place alone.
     pub of: [u8; N],

@@ -92,7 +92,8 @@ impl Voters {
         let [c, dx, dy, x, y, side] = lanes(simd, [c, dx, dy, x, y, side]);
         let [steep, width, slope, least, rounding, slack, zero, more] = splat(
             simd,
-            // Planes of refined maps are three floats about the middle of a tile. A little more than the region, so that no rounding decides.
+            // A millionth, because planes of refined maps are three floats about the middle of a tile; and a little more than 1, so that no rounding
+            // decides for a place at the rim of the region.
             [compared.steep, compared.width, compared.slope, compared.least, compared.rounding, 1e-6, 0.0, 1.0 + 1e-9],
         );
         let gentle = steep.min_precise(dx.abs() + dy.abs());
