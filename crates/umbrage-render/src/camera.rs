@@ -51,6 +51,8 @@ pub(crate) struct Gather<'a> {
     pub axis: u32,
     /// One region per sample instead of one per surface.
     pub every_sample: bool,
+    /// Points without extent, texture and shading normal, for rays alone.
+    pub points: bool,
     /// Pixels across the picture.
     pub width: u32,
 }
@@ -139,7 +141,9 @@ impl Gather<'_> {
                 let Some(region) = regions.last_mut() else { continue };
                 region.point.region = name.wrapping_add(index as u32);
                 region.point.cells = if self.every_sample { Cells::ALL } else { cells };
-                region.texture = self.texture(members(), count, &tile.facets);
+                if !self.points {
+                    region.texture = self.texture(members(), count, &tile.facets);
+                }
                 region.share = count as f32 / all as f32;
                 region.pixel = pixel;
             }
@@ -167,26 +171,32 @@ impl Gather<'_> {
         let spread = if self.view.is_perspective() { 0.5 * hit.abs() } else { f64::INFINITY };
         let extrapolated = facet.plane.at(centre);
         let (centre, key) = if (extrapolated - hit).abs() <= spread { (centre, extrapolated) } else { (sample, hit) };
-        let reach = if self.view.is_perspective() { 0.75 * key.abs() } else { f64::INFINITY };
-        let half = f64::from(self.axis) * 0.5;
-        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| {
-            let corner = centre + DVec2::new(x, y) * half;
-            self.view.world_at(corner, facet.plane.at(corner).clamp(key - reach, key + reach))
-        });
         let position = self.view.world_at(centre, key);
         let (triangle, normals) = self.soup.corners(facet.triangle);
         let side = if front { 1.0 } else { -1.0 };
         let [a, b, c] = triangle;
         let normal = (b - a).cross(c - a).normalize_or(DVec3::Z) * side;
         let point = SurfacePoint { object: facet.object, ..SurfacePoint::at(position, normal.as_vec3()) };
-        Region {
-            point: point.with_corners(corners),
-            shading_normal: interpolate(position, triangle, normals) * side as f32,
-            texture: Vec3::ONE,
-            share: 0.0,
-            pixel: 0,
-            zeta: if self.view.is_perspective() { -1.0 / key } else { key } as f32,
+        let zeta = if self.view.is_perspective() { -1.0 / key } else { key } as f32;
+        let region = Region { point, shading_normal: point.normal, texture: Vec3::ONE, share: 0.0, pixel: 0, zeta };
+        if self.points {
+            return region;
         }
+        Region {
+            point: point.with_corners(self.corners(facet, centre, key)),
+            shading_normal: interpolate(position, triangle, normals) * side as f32,
+            ..region
+        }
+    }
+
+    /// The corners of the pixel about a place on a facet's plane (sample space) that has the depth `key`.
+    fn corners(&self, facet: &Facet, centre: DVec2, key: f64) -> [DVec3; 4] {
+        let reach = if self.view.is_perspective() { 0.75 * key.abs() } else { f64::INFINITY };
+        let half = f64::from(self.axis) * 0.5;
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| {
+            let corner = centre + DVec2::new(x, y) * half;
+            self.view.world_at(corner, facet.plane.at(corner).clamp(key - reach, key + reach))
+        })
     }
 }
 

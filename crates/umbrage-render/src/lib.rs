@@ -38,7 +38,7 @@ mod weights;
 
 pub use exposure::{expose, expose_deep, exposed_map, light_map, light_shadow};
 pub use lights::{bind_lights, light_maps, light_shadows};
-pub use picture::{Frame, NOTHING, Picture, Sight, picture, picture_where};
+pub use picture::{Frame, NOTHING, Picture, Sight, picture, picture_where, rays_where};
 pub use planar::{Ground, Planar};
 pub use receivers::receivers;
 

@@ -111,9 +111,31 @@ pub fn picture_where(
     frame: &Frame,
     wanted: impl Fn(u32) -> bool + Sync,
 ) -> Picture {
+    drawn(scene, shadows, frame, wanted, true)
+}
+
+/// [`picture_where`] for rays alone, in less time: shadows are given points without extent, which have geometric normals, and nothing is shaded. The
+/// colour is the background's all over; all else is the same as there, by shadows that look at no extent.
+pub fn rays_where(
+    scene: &Scene,
+    shadows: &[&dyn Shadow],
+    frame: &Frame,
+    wanted: impl Fn(u32) -> bool + Sync,
+) -> Picture {
+    drawn(scene, shadows, frame, wanted, false)
+}
+
+/// [`picture_where`] where it is `shaded`, and otherwise [`rays_where`].
+fn drawn(
+    scene: &Scene,
+    shadows: &[&dyn Shadow],
+    frame: &Frame,
+    wanted: impl Fn(u32) -> bool + Sync,
+    shaded: bool,
+) -> Picture {
     let mut picture = Picture::empty(scene, scene.camera.size());
-    let finish = |origin, gathered| (origin, finish_tile(scene, shadows, frame, &gathered));
-    each_tile(scene, frame, wanted, finish, |(origin, tile)| picture.place(origin, &tile));
+    let finish = |origin, gathered| (origin, finish_tile(scene, shadows, frame, &gathered, shaded));
+    each_tile(scene, frame, !shaded, wanted, finish, |(origin, tile)| picture.place(origin, &tile));
     picture
 }
 
@@ -130,15 +152,24 @@ impl Sight {
     /// What [`picture`] would shade.
     pub fn new(scene: &Scene, frame: &Frame) -> Self {
         let mut tiles = Vec::new();
-        each_tile(scene, frame, |_| true, |origin, gathered| (origin, gathered), |tile| tiles.push(tile));
+        each_tile(scene, frame, false, |_| true, |origin, gathered| (origin, gathered), |tile| tiles.push(tile));
         Self { frame: *frame, tiles }
     }
 
     /// The same as [`picture`] of the scene and the frame that it was made with.
     pub fn picture(&self, scene: &Scene, shadows: &[&dyn Shadow]) -> Picture {
+        self.drawn(scene, shadows, true)
+    }
+
+    /// The same without shading, in less time: the colour is the background's all over.
+    pub fn shadows(&self, scene: &Scene, shadows: &[&dyn Shadow]) -> Picture {
+        self.drawn(scene, shadows, false)
+    }
+
+    fn drawn(&self, scene: &Scene, shadows: &[&dyn Shadow], shaded: bool) -> Picture {
+        let finish = |gathered: &Gathered| finish_tile(scene, shadows, &self.frame, gathered, shaded);
         let mut picture = Picture::empty(scene, scene.camera.size());
-        let done: Vec<TileOut> =
-            self.tiles.par_iter().map(|(_, gathered)| finish_tile(scene, shadows, &self.frame, gathered)).collect();
+        let done: Vec<TileOut> = self.tiles.par_iter().map(|(_, gathered)| finish(gathered)).collect();
         for ((origin, _), tile) in self.tiles.iter().zip(&done) {
             picture.place(*origin, tile);
         }
@@ -147,10 +178,11 @@ impl Sight {
 }
 
 /// Gathers what the camera sees of each tile, `finish`es many tiles at once, given the pixel at a tile's upper left and what is seen, and lets `take` have what
-/// came of them, in their order.
+/// came of them, in their order. What is gathered are `points` or regions.
 fn each_tile<T: Send>(
     scene: &Scene,
     frame: &Frame,
+    points: bool,
     wanted: impl Fn(u32) -> bool + Sync,
     finish: impl Fn(UVec2, Gathered) -> T + Sync,
     mut take: impl FnMut(T),
@@ -162,7 +194,7 @@ fn each_tile<T: Send>(
     let triangles = soup.casting().map(|caster| masks.note(caster));
     let bins = Bins::new(&view, TexelRect::of_size(view.size()), Cull::None, triangles);
     let (every_sample, width) = (frame.every_sample, scene.camera.size().x);
-    let gather = Gather { soup: &soup, bins: &bins, masks: &masks, view: &view, axis, every_sample, width };
+    let gather = Gather { soup: &soup, bins: &bins, masks: &masks, view: &view, axis, every_sample, points, width };
     let tiles = bins.tiles();
     // A pixel that is finished takes several times as much as what the picture keeps of it.
     let (count, together) = (tiles.x * tiles.y, TOGETHER.max(16 * rayon::current_num_threads() as u32));
@@ -193,6 +225,7 @@ struct Pixel {
 /// What one light's shadow says of a tile's regions.
 struct Answer {
     fractions: Vec<f32>,
+    /// None where nothing is shaded.
     passes: Vec<Vec3>,
 }
 
@@ -208,20 +241,23 @@ struct TileOut {
     regions: u64,
 }
 
-fn finish_tile(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame, gathered: &Gathered) -> TileOut {
+fn finish_tile(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame, gathered: &Gathered, shaded: bool) -> TileOut {
     let Gathered { regions, fragments, passing } = gathered;
     let point = |region: &Region| {
         let normal = if frame.smooth { region.shading_normal } else { region.point.normal };
         SurfacePoint { normal, ..region.point }
     };
     let points: Vec<SurfacePoint> = regions.iter().map(point).collect();
-    let lit = |_| Answer { fractions: vec![0.0; points.len()], passes: vec![Vec3::ONE; points.len()] };
+    let passes = if shaded { vec![Vec3::ONE; points.len()] } else { Vec::new() };
+    let lit = |_| Answer { fractions: vec![0.0; points.len()], passes: passes.clone() };
     let mut answers: Vec<Answer> = scene.lights.iter().map(lit).collect();
     for (light, (shadow, answer)) in shadows.iter().zip(&mut answers).enumerate() {
         if scene.lights[light].casts {
             let key = Key::new(frame.seed, frame.number, light as u32);
             shadow.fractions(&points, key, &mut answer.fractions);
-            shadow.transmittances(&points, key, &answer.fractions, &mut answer.passes);
+            if shaded {
+                shadow.transmittances(&points, key, &answer.fractions, &mut answer.passes);
+            }
         }
     }
     let mut tile = TileOut {
@@ -233,7 +269,7 @@ fn finish_tile(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame, gathered: 
         regions: regions.len() as u64,
     };
     let mut shading =
-        Shading { scene, answers: &answers, arrives: vec![Vec3::ONE; answers.len()], objects: Vec::new() };
+        Shading { scene, shaded, answers: &answers, arrives: vec![Vec3::ONE; answers.len()], objects: Vec::new() };
     let mut first = 0;
     for regions in regions.chunk_by(|a, b| a.pixel == b.pixel) {
         tile.pixels.push(shading.pixel(regions, first, &mut tile.lights));
@@ -245,6 +281,8 @@ fn finish_tile(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame, gathered: 
 /// Shades the pixels of a tile.
 struct Shading<'a> {
     scene: &'a Scene,
+    /// Whether anybody looks at its colour.
+    shaded: bool,
     answers: &'a [Answer],
     /// Room for what of each light arrives at a region.
     arrives: Vec<Vec3>,
@@ -255,7 +293,7 @@ struct Shading<'a> {
 impl Shading<'_> {
     /// The pixel of some regions, at least one, the first of which has the index `first` in the tile; adds what `lights` are to hold of it.
     fn pixel(&mut self, regions: &[Region], first: usize, lights: &mut Vec<[f32; 2]>) -> Pixel {
-        let Self { scene, answers, arrives, objects } = self;
+        let Self { scene, shaded, answers, arrives, objects } = self;
         let Region { pixel: index, point, zeta, .. } = regions[0];
         let mut pixel = Pixel { index, colour: Vec3::ZERO, covered: 0.0, share: 0.0, best: 0.0, point, zeta };
         objects.clear();
@@ -267,15 +305,19 @@ impl Shading<'_> {
             for (light, answer) in answers.iter().enumerate() {
                 let [shadow, facing] = &mut lights[start + light];
                 if receives {
-                    arrives[light] = answer.passes[index];
+                    if let Some(passes) = answer.passes.get(index) {
+                        arrives[light] = *passes;
+                    }
                     *shadow += answer.fractions[index] * region.share;
                 }
                 let toward = scene.lights[light].view.toward_eye(region.point.position);
                 *facing += region.point.normal.dot(toward.as_vec3()) * region.share;
             }
-            let toward_eye = scene.camera.toward_eye(region.point.position).as_vec3();
-            pixel.colour += shade(scene, region, toward_eye, arrives) * region.share;
-            pixel.covered += region.share;
+            if *shaded {
+                let toward_eye = scene.camera.toward_eye(region.point.position).as_vec3();
+                pixel.colour += shade(scene, region, toward_eye, arrives) * region.share;
+                pixel.covered += region.share;
+            }
             let object = region.point.object;
             match objects.iter_mut().find(|(known, _)| *known == object) {
                 Some((_, share)) => *share += region.share,

@@ -51,7 +51,7 @@ struct Case {
 
 impl Case {
     fn still(cx: &Context, name: &'static str, scene: Scene, texels: u32, axis: u32) -> Self {
-        let set = Set::new(scene, cx.pick(360, 128), texels);
+        let set = Set::new(scene, cx.pick(360, 128), texels).in_colour();
         let moments = vec![set.scene.clone()];
         let frame = Frame { axis: cx.pick(4, 2), every_sample: true, ..Frame::default() };
         Self { name, exact: moments.clone(), moments, set, floor: 0, frame, axis, flying: None }
@@ -69,7 +69,7 @@ impl Case {
             |count: u8| -> Vec<Scene> { (0..count).map(|i| at((f32::from(i) + 0.5) / f32::from(count))).collect() };
         let mut seen = at(0.5);
         seen.objects.pop();
-        let set = Set::new(seen, cx.pick(360, 96), cx.pick(384, 128));
+        let set = Set::new(seen, cx.pick(360, 96), cx.pick(384, 128)).in_colour();
         let frame = Frame { axis: 2, every_sample: true, ..Frame::default() };
         let flying = Some(streak(cx, &set, &over(cx.pick(96, 12))));
         Self {

@@ -31,7 +31,7 @@ fn density(delta: f64) -> f64 {
 }
 
 fn opacity(cx: &Context) -> anyhow::Result<Made> {
-    let set = Set::new(gallery::contact_box(), cx.pick(320, 128), 1024);
+    let set = Set::new(gallery::contact_box(), cx.pick(320, 128), 1024).in_colour();
     let view = set.scene.lights[0].view;
     let max = burley_max(&view, LIGHT, axial(&view, DVec3::new(CORNER.x, 60.0, CORNER.z)));
     let plain = format!("burley,max={max:.3}t,{TAPS}");

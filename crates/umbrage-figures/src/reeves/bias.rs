@@ -24,7 +24,7 @@ pub const F9: Figure = Figure {
 };
 
 fn bias(cx: &Context) -> anyhow::Result<Made> {
-    let set = Set::new(gallery::sphere_plane(), cx.pick(512, 256), 1024);
+    let set = Set::new(gallery::sphere_plane(), cx.pick(512, 256), 1024).in_colour();
     let truth = set.truth_points(cx, &Frame::CENTRES);
     let exact = set.truth(cx);
     let mut made = Made::default();

@@ -41,10 +41,10 @@ fn points_of_view(cx: &Context) -> anyhow::Result<Made> {
     let lamp = &mut scene.lights[0].view;
     let (eye, target) = (lamp.light().truncate(), DVec3::new(0.0, 0.0, 12.0));
     *lamp = View::perspective(eye, target, DVec3::Y, 90f64.to_radians(), lamp.near(), lamp.far(), lamp.size())?;
-    let set = Set::new(scene, pixels, 1024);
+    let set = Set::new(scene, pixels, 1024).in_colour();
     let light = set.scene.lights[0].view;
     let seen_from = |view: &View| {
-        let mut set = Set::new(set.scene.clone(), pixels, 1024);
+        let mut set = Set::new(set.scene.clone(), pixels, 1024).in_colour();
         set.scene.camera = view.with_size(UVec2::splat(pixels)).unwrap_or(*view);
         set.shoot(cx, on_plane(), &Frame::default())
     };
@@ -291,7 +291,7 @@ pub const F5: Figure = Figure {
 };
 
 fn example(cx: &Context) -> anyhow::Result<Made> {
-    let set = Set::new(gallery::sphere_plane(), cx.pick(1024, 256), 1024);
+    let set = Set::new(gallery::sphere_plane(), cx.pick(1024, 256), 1024).in_colour();
     let picture = set.shoot(cx, presets::reeves87().filter, &Frame::default());
     let truth = set.truth(cx);
     let centroid = |picture: &Picture| metrics::centroid(shadow_grid(picture), &of(picture, |id| id == PLANE));

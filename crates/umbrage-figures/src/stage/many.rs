@@ -5,7 +5,7 @@ use super::without_map;
 use glam::Vec3;
 use umbrage_oracle::{Geometry, RayCast, metrics};
 use umbrage_plane::{Place, SurfacePoint, View};
-use umbrage_render::{Frame, Picture, picture, picture_where};
+use umbrage_render::{Frame, Picture, picture, rays_where};
 use umbrage_sample::Key;
 use umbrage_scene::Scene;
 use umbrage_shadow::{Shadow, Unshadowed, same_length};
@@ -34,13 +34,11 @@ impl Many {
         let centre = picture(scene, &[&Unshadowed], &Frame { seed, ..Frame::CENTRES });
         let mut scene = scene.clone();
         let light = without_map(&scene.lights[0].view);
-        // Nobody looks at its colours.
-        scene.objects.iter_mut().for_each(|object| object.material.specular = Vec3::ZERO);
         scene.lights = vec![scene.lights[0].clone(), scene.lights[0].clone()];
         let (rays, facing) = (RayCast::new(geometry, &light), FacesLight(&light));
         let draw = |axis: u32, number: u32, wanted: &(dyn Fn(u32) -> bool + Sync)| {
             let frame = Frame { axis, every_sample: true, seed, number, ..Frame::default() };
-            picture_where(&scene, &[&rays, &facing], &frame, wanted)
+            rays_where(&scene, &[&rays, &facing], &frame, wanted)
         };
         let mut truth = draw(4, 0, &|_| true);
         let some = |part: f32| part > 0.0 && part < 1.0;

@@ -12,7 +12,7 @@ use umbrage_oracle::{AreaLight, Geometry, RayCast};
 use umbrage_plane::{Kind, Sampling, View};
 use umbrage_raster::Cull;
 use umbrage_recipe::{LightShadow, Recipe, bind};
-use umbrage_render::{Frame, Picture, Sight, Soup, light_map, light_shadow, picture, receivers};
+use umbrage_render::{Frame, Picture, Sight, Soup, light_map, light_shadow, picture, rays_where, receivers};
 use umbrage_scene::Scene;
 use umbrage_shadow::{Filter, Shadow, Unshadowed};
 
@@ -22,6 +22,8 @@ use umbrage_shadow::{Filter, Shadow, Unshadowed};
 /// another light is another set.
 pub struct Set {
     pub scene: Scene,
+    /// Whether its pictures are shaded; the colour of others is the background's all over.
+    colours: bool,
     map: OnceLock<Arc<Tiled>>,
     /// By the camera; for every set of the scene.
     sights: Memo<(View, Frame), Sight>,
@@ -63,12 +65,18 @@ impl Set {
     pub fn of(scene: Scene) -> Self {
         Self {
             scene,
+            colours: false,
             map: OnceLock::new(),
             sights: Memo::default(),
             geometries: Memo::default(),
             maps: Memo::default(),
             lights: Memo::default(),
         }
+    }
+
+    /// The same, whose pictures are shaded. Most figures look at shadows alone.
+    pub fn in_colour(self) -> Self {
+        Self { colours: true, ..self }
     }
 
     /// The same with another map of light 0.
@@ -80,7 +88,8 @@ impl Set {
     pub fn with_texels(&self, texels: u32) -> Self {
         let mut scene = self.scene.clone();
         scene.lights[0].view = sized(&scene.lights[0].view, texels);
-        Self { sights: self.sights.clone(), geometries: self.geometries.clone(), ..Self::of(scene) }
+        let (sights, geometries) = (self.sights.clone(), self.geometries.clone());
+        Self { colours: self.colours, sights, geometries, ..Self::of(scene) }
     }
 
     /// Light 0's map of first depths.
@@ -156,7 +165,16 @@ impl Set {
             return picture(&self.scene, &[shadow], &frame);
         }
         let sight = self.sights.once((self.scene.camera, frame), || Sight::new(&self.scene, &frame));
-        sight.picture(&self.scene, &[shadow])
+        if self.colours { sight.picture(&self.scene, &[shadow]) } else { sight.shadows(&self.scene, &[shadow]) }
+    }
+
+    /// The picture by rays, which look at no point's extent.
+    pub fn draw_rays(&self, cx: &Context, rays: &dyn Shadow, frame: &Frame) -> Picture {
+        let frame = Frame { seed: cx.seed, ..*frame };
+        if frame.every_sample && !self.colours {
+            return rays_where(&self.scene, &[rays], &frame, |_| true);
+        }
+        self.draw(cx, rays, &frame)
     }
 
     /// Rays at the very points at which a method is looked up: one hard result per region.
@@ -195,9 +213,14 @@ impl Set {
         shadow: impl for<'a> Fn(&'a Geometry) -> Box<dyn Shadow + 'a>,
     ) -> Arc<Picture> {
         let frame = Frame { seed: cx.seed, ..*frame };
-        cx.truths.pictures.once(self.seen(frame, rays), || {
+        let seen = self.seen(frame, rays);
+        // A shaded one has the shadows of the other.
+        if let Some(known) = cx.truths.pictures.known(&(seen.clone(), true)) {
+            return known;
+        }
+        cx.truths.pictures.once((seen, self.colours), || {
             let geometry = self.geometry();
-            self.draw(cx, &*shadow(&geometry), &frame)
+            self.draw_rays(cx, &*shadow(&geometry), &frame)
         })
     }
 

@@ -37,8 +37,8 @@ pub(crate) struct Seen {
 /// The truths of one run. Clones share what they hold.
 #[derive(Clone, Debug, Default)]
 pub struct Truths {
-    /// One look-up per region.
-    pub(crate) pictures: Memo<Seen, Picture>,
+    /// One look-up per region, and whether it is shaded.
+    pub(crate) pictures: Memo<(Seen, bool), Picture>,
     /// Many rays per pixel, each with what is judged by them.
     pub(crate) many: Memo<Seen, Many>,
 }

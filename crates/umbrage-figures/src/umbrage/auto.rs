@@ -92,7 +92,7 @@ fn shown(cx: &Context) -> anyhow::Result<Made> {
     }
     made.panels.push(truth_panel(judge.truth()));
     made.panels.push(zoomed("truth-zoom", "Enlarged", judge.truth(), MIDDLE, PART).role(Role::Truth));
-    let room = Set::new(gallery::contacts(0), cx.pick(1440, 480), cx.pick(512, 256));
+    let room = Set::new(gallery::contacts(0), cx.pick(1440, 480), cx.pick(512, 256)).in_colour();
     for (id, caption, recipe) in [
         ("chairs-engine", "An engine's default, urp-hard", "urp-hard"),
         ("chairs-auto", "auto, a map of the same size", "auto"),

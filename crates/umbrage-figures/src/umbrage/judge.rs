@@ -54,7 +54,7 @@ impl Judge {
     pub fn rays(&self, cx: &Context, axis: u32) -> Picture {
         let geometry = self.set.geometry();
         let rays = RayCast::new(&geometry, &self.set.scene.lights[0].view);
-        self.set.draw(cx, &rays, &Frame { axis, every_sample: true, number: 1000, ..Frame::default() })
+        self.set.draw_rays(cx, &rays, &Frame { axis, every_sample: true, number: 1000, ..Frame::default() })
     }
 
     /// Root mean square, over pixels of one surface, of the difference between the first half of truth's rays and the other half. By itself, each half is

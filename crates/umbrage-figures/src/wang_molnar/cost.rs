@@ -38,7 +38,7 @@ fn degrade(cx: &Context) -> anyhow::Result<Made> {
     let mut made = Made::default();
     let (mut leaks, mut shares, mut with_backs, mut rows) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for texels in [512, 256, 128] {
-        let set = Set::new(gallery::table(), cx.pick(512, 256), texels);
+        let set = Set::new(gallery::table(), cx.pick(512, 256), texels).in_colour();
         let seen = set.truth_points(cx, &Frame::CENTRES);
         let by_centres = set.by(cx, SHADED, &Frame::CENTRES)?;
         let false_shadow = acne(&by_centres, &seen, cx.pick(2, 1), |_| true);

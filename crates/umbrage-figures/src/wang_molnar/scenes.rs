@@ -94,7 +94,7 @@ pub const F13: Figure = Figure {
 };
 
 fn pipes(cx: &Context) -> anyhow::Result<Made> {
-    let set = Set::new(gallery::pipes(), cx.pick(1024, 384), 512);
+    let set = Set::new(gallery::pipes(), cx.pick(1024, 384), 512).in_colour();
     let still = Still::new(cx, &set, cx.pick(6, 3))?;
     let mut panels = still.panels("", "Pipes, 512² map");
     panels.extend(still.window("middle", "Among the pipes", DVec2::new(0.5, 0.55)));
@@ -122,7 +122,7 @@ pub const F14: Figure = Figure {
 
 fn hall(cx: &Context) -> anyhow::Result<Made> {
     let texels = cx.pick(2048, 1024);
-    let set = Set::new(gallery::walkthrough(), cx.pick(1024, 384), texels);
+    let set = Set::new(gallery::walkthrough(), cx.pick(1024, 384), texels).in_colour();
     // A pixel is about a texel here, and the filter two.
     let still = Still::new(cx, &set, 2)?;
     let objects = &set.scene.objects;
@@ -182,7 +182,7 @@ pub const F15: Figure = Figure {
 fn alley(cx: &Context, number: u32) -> Set {
     let mut scene = gallery::bowling(number);
     scene.name = format!("bowling, frame {number}");
-    Set::new(scene, cx.pick(640, 320), 512)
+    Set::new(scene, cx.pick(640, 320), 512).in_colour()
 }
 
 /// Pixels at which, and within `border` pixels of which, neither the surface nor its true shadow changes from one frame to the other, all on

@@ -105,7 +105,7 @@ fn second(cx: &Context) -> anyhow::Result<Made> {
         ("two-buffers".into(), slice_diagram(cx, "Second surfaces by two buffers", &slice, &two).svg()),
         ("back-faces".into(), slice_diagram(cx, "Second surfaces by back faces", &slice, &back).svg()),
     ];
-    let set = Set::new(union_scene()?, cx.pick(512, 192), cx.pick(512, 192));
+    let set = Set::new(union_scene()?, cx.pick(512, 192), cx.pick(512, 192)).in_colour();
     let light = set.scene.lights[0].view;
     let soup = Soup::casters(&set.scene, &light);
     let maps = [

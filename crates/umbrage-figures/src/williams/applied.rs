@@ -143,7 +143,7 @@ fn highlights(
     for object in &mut scene.objects {
         object.material.specular = Vec3::ZERO;
     }
-    let matt = Set::of(scene);
+    let matt = Set::of(scene).in_colour();
     let per_sample = [set, &matt].map(|set| set.shoot(cx, faithful(4.0), &Frame::CENTRES).colour);
     let plain = matt.plain(cx, &Frame::CENTRES).colour;
     let afterwards = [&shaded.colour, &plain].map(|colour| darken(colour, image, density));

@@ -124,7 +124,7 @@ pub const TEAPOT: Figure = Figure {
 };
 
 fn teapot(cx: &Context) -> anyhow::Result<Made> {
-    let set = Set::new(gallery::teapot(), cx.pick(768, 256), 1024);
+    let set = Set::new(gallery::teapot(), cx.pick(768, 256), 1024).in_colour();
     let depth = OnPlane::biased(Bias::World(0.3));
     let Pcf { pattern, res_factor, min_size, cull, .. } = presets::reeves87_recommended().filter;
     let pattern = pattern.with_num_samples(64);

@@ -75,7 +75,7 @@ fn rim(cx: &Context) -> anyhow::Result<Made> {
         // The board is in the map and not in the picture, which shows what lies under it.
         let mut scene = set.scene.clone();
         scene.objects.pop();
-        let floor = Set::of(scene);
+        let floor = Set::of(scene).in_colour();
         let picture = floor.draw(cx, &*method, &Frame::CENTRES);
         panels.push(colour_panel(name, caption, picture.size, &picture.colour).with("board", "cut away"));
         let enlarged = format!("{caption}, the rim in the board's shadow");

@@ -26,7 +26,10 @@ pub struct Pair {
 impl Pair {
     pub fn new(cx: &Context) -> Self {
         let pixels = cx.pick(512, 256);
-        Self { room: Set::new(gallery::spot_room(), pixels, 256), slab: Set::new(gallery::sphere_plane(), pixels, 256) }
+        Self {
+            room: Set::new(gallery::spot_room(), pixels, 256).in_colour(),
+            slab: Set::new(gallery::sphere_plane(), pixels, 256),
+        }
     }
 }
 

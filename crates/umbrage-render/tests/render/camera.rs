@@ -2,8 +2,9 @@
 
 use glam::{DVec3, UVec2, Vec3};
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 use umbrage_plane::{SurfacePoint, View};
-use umbrage_render::{Frame, NOTHING, Sight, picture, picture_where};
+use umbrage_render::{Frame, NOTHING, Sight, picture, picture_where, rays_where};
 use umbrage_sample::Key;
 use umbrage_scene::{Light, Material, Mesh, Object, Scene, gallery};
 use umbrage_shadow::Shadow;
@@ -163,4 +164,41 @@ fn samples_that_do_not_fit_one_grid_are_fewer() {
     let frame = Frame { axis: 8, ..Frame::default() };
     let across = |size: u32| frame.sample_view(&camera.with_size(UVec2::new(size, 1)).unwrap()).size().x;
     assert_eq!((across(4096), across(4097), across(20_000)), (32_768, 16_388, 20_000));
+}
+
+#[test]
+fn pictures_of_shadows_alone_differ_in_their_colour_only() {
+    let scene = boards();
+    for every_sample in [false, true] {
+        let frame = Frame { axis: 4, every_sample, ..Frame::default() };
+        let shadow = Striped::default();
+        let (all, sight) = (picture(&scene, &[&shadow], &frame), Sight::new(&scene, &frame));
+        assert!(all.shadow[0].iter().any(|&dark| dark > 0.0));
+        assert!(!shadow.points.load(Ordering::Relaxed));
+        let by_points = rays_where(&scene, &[&shadow], &frame, |_| true);
+        assert!(shadow.points.load(Ordering::Relaxed));
+        for some in [by_points, sight.shadows(&scene, &[&shadow])] {
+            assert_eq!((&some.shadow, &some.facing, &some.object), (&all.shadow, &all.facing, &all.object));
+            assert_eq!((&some.share, &some.normal, &some.depth), (&all.share, &all.normal, &all.depth));
+            assert!(some.colour.iter().all(|colour| *colour == scene.background));
+        }
+        assert!(all.colour.iter().any(|colour| *colour != scene.background));
+    }
+}
+
+/// Dark at every other place across, whatever the extent; remembers whether it was given points without any.
+#[derive(Default)]
+struct Striped {
+    points: AtomicBool,
+}
+
+impl Shadow for Striped {
+    fn fractions(&self, at: &[SurfacePoint], _key: Key, out: &mut [f32]) {
+        for (point, dark) in at.iter().zip(out) {
+            *dark = f32::from(u8::from(point.position.x.rem_euclid(0.5) < 0.25));
+            if point.corner_offsets == [Vec3::ZERO; 4] {
+                self.points.store(true, Ordering::Relaxed);
+            }
+        }
+    }
 }
