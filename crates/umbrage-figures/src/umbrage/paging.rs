@@ -6,7 +6,7 @@ use crate::stage::panels::shadow_panel;
 use glam::UVec2;
 use std::sync::Arc;
 use umbrage_bake::bake;
-use umbrage_depth::{DepthMap, First, Raw, Tiled};
+use umbrage_depth::{DepthMap, First, Tiled};
 use umbrage_io::{Paged, write_shadow_map};
 use umbrage_oracle::metrics;
 use umbrage_plane::View;
@@ -47,15 +47,10 @@ fn scene(pixels: u32) -> anyhow::Result<Scene> {
 /// A map of light 0 on disk, and as it was in memory.
 fn written(scene: &Scene, view: &View) -> anyhow::Result<(Temporary, Arc<Tiled>)> {
     let map = bake(view, Soup::casters(scene, view).triangles(), &First, Cull::None).map;
-    Ok((on_disk(&*map)?, map))
-}
-
-/// A map's file.
-fn on_disk(map: &impl DepthMap) -> anyhow::Result<Temporary> {
-    let name = format!("umbrage-paging-{}-{}.exr", std::process::id(), map.view().size().x);
+    let name = format!("umbrage-paging-{}-{}.exr", std::process::id(), view.size().x);
     let file = Temporary(std::env::temp_dir().join(name));
-    write_shadow_map(&file.0, map)?;
-    Ok(file)
+    write_shadow_map(&file.0, &map)?;
+    Ok((file, map))
 }
 
 /// Tiles read for look-ups at the given texel positions in this order, through so many pages.
@@ -98,11 +93,7 @@ fn paging(cx: &Context) -> anyhow::Result<Made> {
         (0..whole.depth.len()).filter(|&i| whole.shadow[0][i].to_bits() != through.shadow[0][i].to_bits()).count();
     // Locality is a matter of a map as fine as the picture (R87-6), all of it in use.
     let near = scene.framed(&scene.lights[0])?.view.with_size(UVec2::splat(2 * pixels))?;
-    let near_map = bake(&near, Soup::casters(&scene, &near).triangles(), &First, Cull::None).map;
-    // Which pages are read depends on where there is a surface, not on how far away it is: flat pages are unpacked faster.
-    let flat =
-        Raw::copy_of(&near_map).map_depths(|_, depth| if depth.is_finite() { near.near() as f32 } else { depth })?;
-    let near_file = on_disk(&flat)?;
+    let (near_file, _) = written(&scene, &near)?;
     let orders = orders(&whole, &near, Key::new(cx.seed, 9, 0));
     let mut rows = Vec::new();
     let mut counted = Vec::new();
