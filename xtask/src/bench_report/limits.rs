@@ -17,7 +17,7 @@ pub fn line(row: &Row, rows: &[Row]) -> Option<String> {
         return None;
     }
     let by = missed_by(row)?;
-    let why = why(row, rows).unwrap_or_else(|| "not looked into".into());
+    let why = why(row, rows).unwrap_or_else(|| "Not looked into".into());
     Some(format!("* {}, beside {}: {by:.0} % more time than its goal allows. {why}.", row.what, row.peer))
 }
 
@@ -58,9 +58,20 @@ fn why(row: &Row, rows: &[Row]) -> Option<String> {
                 share(second)
             )
         }
+        "pass 1" if has("midpoint") => {
+            "It keeps two depths of each texel until both are known, and resolves them together: twice what a map of this size writes for one".into()
+        }
+        "pass 1" if has("facets") => {
+            "Which facet is nearest is found by a second walk over the fragments, and indices and planes are packed tile by tile".into()
+        }
         "look-ups" if has("burley") => {
             let closer = part("pcf-bias raw")?;
             format!("It looks at two sets of 16 places, blockers first and then the blur; 16 of a plain bias take {closer:.0} ns")
+        }
+        "look-ups" if has("pcf-bias facets") => {
+            "At each of 16 places it finds a tile, the index of a facet among small numbers of the tile's own width, and that facet's plane in f64, where tiles \
+             have one f32"
+                .into()
         }
         "look-ups" if row.peer == "listing" => {
             let (transform, from) = match what.split_once(", ") {
@@ -99,8 +110,8 @@ fn why(row: &Row, rows: &[Row]) -> Option<String> {
                 _ => row.theirs,
             };
             format!(
-                "The goal is {goal:.0} ms, of which the bake takes {bake:.0} ms; a million look-ups of {kind} take the other {:.0} ms, while a ray takes {:.0} ns \
-                 with its tree built",
+                "The goal is {goal:.0} ms, of which the bake takes {bake:.0} ms; a million look-ups of {kind} take the other {:.0} ms, the peer takes {:.0} ns \
+                 for each point, its tree included",
                 row.ours - bake,
                 row.theirs
             )
@@ -137,6 +148,6 @@ mod tests {
     fn what_nobody_looked_into_says_so() {
         let rows = [row("else", "a at 1", 3.0, ("b", 1.0), Goal::Within(2.0))];
         let text = line(&rows[0], &rows).expect("a missed goal");
-        assert_eq!(text, "* a at 1, beside b: 50 % more time than its goal allows. not looked into.");
+        assert_eq!(text, "* a at 1, beside b: 50 % more time than its goal allows. Not looked into.");
     }
 }
