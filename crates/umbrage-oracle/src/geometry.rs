@@ -343,7 +343,7 @@ impl Geometry {
 
     /// For each ray whether a hit as [`Geometry::is_free`] has it is in its way; fast where they go much the same way.
     pub(crate) fn blocked(&self, shots: &[&Shot], counts: impl Fn(&Shot, u32, f64) -> bool) -> Vec<bool> {
-        // From so many boxes a ray's way is no longer than from the root.
+        // Starting at up to so many nodes takes a ray no more time than starting at the root.
         const NODES: usize = 16;
         let most = if shots.len() < 4 { 1 } else { NODES };
         let mut nodes = Shaft::around(shots.iter().map(|shot| &shot.ray)).nodes(&self.tree, most);

@@ -1,6 +1,10 @@
 //! The rows of the table.
 
 use crate::engine::EngineBias;
+use crate::groups::{
+    AUTO, CLOSER, COMPARED, CONDITIONAL, DEVIATION, FACTORS, HDRP, MOMENTS, PLANES, PREFILTERED, REGIONS, SINGLE, SOFT,
+    STORING, VARIANCE, WILLIAMS,
+};
 use crate::kind::Value;
 use crate::pattern::PatternName;
 use crate::values::{DepthName, Rule, Window};
@@ -10,76 +14,6 @@ use umbrage_plane::Bias;
 use umbrage_sample::Density;
 use umbrage_shadow::williams::{DitherLaw, Guard, Lookup};
 use umbrage_shadow::{OccluderFalloff, OffsetGrowth, Radius, Spread, VirtualWhen};
-
-const AUTO: &[PresetName] = &[PresetName::Auto];
-
-/// These presets and those of engines that are percentage closer in a few texels.
-macro_rules! and_closer {
-    ($($preset:ident),+ $(,)?) => {
-        &[
-            $(PresetName::$preset,)+
-            PresetName::ThreePcf,
-            PresetName::BabylonNone,
-            PresetName::BabylonPcf,
-            PresetName::FilamentPcf,
-            PresetName::BevyGaussian,
-            PresetName::GodotPcf,
-            PresetName::UrpHard,
-            PresetName::UrpSoft,
-            PresetName::HdrpPcf5,
-            PresetName::HdrpPcf7,
-        ]
-    };
-}
-
-/// These presets and those of engines.
-macro_rules! and_engines {
-    ($($preset:ident),+ $(,)?) => {
-        and_closer![$($preset,)+ ThreeVsm, HdrpPcss]
-    };
-}
-
-/// All presets whose map stores depths: which surface it stores can be chosen.
-const STORING: &[PresetName] = and_engines![
-    Williams78,
-    Reeves87,
-    Reeves87Recommended,
-    Woo92,
-    WangMolnar94,
-    Burley,
-    Fernando,
-    Ordinary,
-    Vsm,
-    Esm,
-    Evsm2,
-    Evsm4,
-    Msm,
-];
-const CLOSER: &[PresetName] = and_closer![Reeves87, Reeves87Recommended, Woo92];
-const SOFT: &[PresetName] = &[PresetName::Burley, PresetName::Fernando];
-const COMPARED: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92, Burley, Fernando];
-const PLANES: &[PresetName] = and_engines![Reeves87, Reeves87Recommended, Woo92, WangMolnar94, Burley, Fernando];
-const REGIONS: &[PresetName] = and_closer![Reeves87, Reeves87Recommended, Woo92, WangMolnar94];
-const FACTORS: &[PresetName] = and_closer![Reeves87, Reeves87Recommended, Woo92, WangMolnar94, Ordinary];
-const CONDITIONAL: &[PresetName] = &[PresetName::WangMolnar94];
-const WILLIAMS: &[PresetName] = &[PresetName::Williams78];
-const SINGLE: &[PresetName] = &[
-    PresetName::Williams78,
-    PresetName::WangMolnar94,
-    PresetName::Ordinary,
-    PresetName::Vsm,
-    PresetName::Esm,
-    PresetName::Evsm2,
-    PresetName::Evsm4,
-    PresetName::Msm,
-];
-const PREFILTERED: &[PresetName] =
-    &[PresetName::Vsm, PresetName::Esm, PresetName::Evsm2, PresetName::Evsm4, PresetName::Msm];
-const MOMENTS: &[PresetName] =
-    &[PresetName::Vsm, PresetName::Esm, PresetName::Evsm2, PresetName::Evsm4, PresetName::Msm, PresetName::ThreeVsm];
-const VARIANCE: &[PresetName] = &[PresetName::Vsm, PresetName::Evsm2, PresetName::Evsm4, PresetName::ThreeVsm];
-const DEVIATION: &[PresetName] = &[PresetName::ThreeVsm];
-const HDRP: &[PresetName] = &[PresetName::HdrpPcss];
 
 /// A field that is one value of the recipe.
 macro_rules! plain {

@@ -24,6 +24,7 @@ mod engine;
 mod error;
 mod field;
 mod fields;
+mod groups;
 #[doc = include_str!("../GUIDE.md")]
 pub mod guide {}
 mod kind;

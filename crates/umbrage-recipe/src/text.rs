@@ -23,7 +23,7 @@ impl Recipe {
         let engine = values.engine();
         let mut given = Vec::new();
         for (name, text) in &fields {
-            // An engine's `bias` is its own: there is no other beside it.
+            // Where an engine has a setting called `bias`, the name means that setting, and the field `bias` cannot be given.
             if values.settings.read(engine, name, text)? {
                 continue;
             }

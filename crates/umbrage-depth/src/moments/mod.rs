@@ -132,7 +132,7 @@ fn on_screen(view: &View, depth: f32) -> f64 {
     if view.kind() == Kind::Screen || depth.is_nan() || depth == f64::INFINITY {
         return depth.clamp(0.0, 1.0);
     }
-    // Nothing stands before the near plane, and at the eye there is no screen depth.
+    // The map holds nothing nearer than the near plane, and screen depth is not defined at the eye.
     view.with_kind(Kind::Screen).key(depth.max(view.near())).clamp(0.0, 1.0)
 }
 

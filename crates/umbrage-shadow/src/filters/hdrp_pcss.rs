@@ -9,16 +9,16 @@ use umbrage_sample::{Density, Spiral, Taps, Vogel};
 /// Percentage-closer soft shadows as Unity's High Definition Render Pipeline has them at high quality (`HDShadowSampling.hlsl` and `HDPCSS.hlsl`, commit
 /// 3064379; the numbers that they are given, in `HDAdditionalLightData.cs` and where shadow requests are made of it).
 ///
-/// The mean of the blockers on a [`Spiral`] sets the radius of a [`Vogel`] disc of bilinear comparisons. How, depends on the light:
+/// The mean of the blockers on a [`Spiral`] sets the radius of a [`Vogel`] disc of bilinear comparisons. How it does so depends on the light:
 ///
 /// * Parallel light is a cone: the receiver is compared nearer to the light the farther a sample is from it, so that only what is inside the cone blocks. The
 ///   search reaches as far as a blocker at the near plane would need it, up to a penumbra of 0.56 world units, and its cone has an angle of 12° or the light's.
 ///   Of the blockers' mean distance from the receiver, nine tenths count; times twice the tangent of half the light's angle they are the disc's radius, at
 ///   least 1.5 texels. While the samples are compared, the cone rises to half a world unit at most, and to a quarter of the way to the blockers. Without a
 ///   blocker there is light.
-/// * A lamp's disc has a radius that is fitted to ray tracing, in fractions of the map: a polynomial of the lamp's radius, times one of the blockers'
-///   distance, at most 0.32, times 1 − d̄/d of reversed screen depths, which is Burley's factor times f/(f − z̄); at least 0.41 texels. The search reaches
-///   as far as the first polynomial says, and the mean is that of screen depths, so that near blockers count more. There is no cone.
+/// * The radius of a lamp's disc was fitted to ray tracing. It is a fraction of the map: a polynomial of the lamp's radius times a polynomial of the blockers'
+///   distance, together at most 0.32, times 1 − d̄/d of reversed screen depths, which is Burley's factor times f/(f − z̄). It is at least 0.41 texels. The
+///   radius of the search is the first polynomial alone. Blockers are averaged by screen depth, which gives near ones more weight. There is no cone.
 ///
 /// What is open there, or left out: (1) discs are turned by interleaved gradient noise of the pixel and the frame, here by the key of the region, and both discs
 /// alike, as there; (2) the radius of parallel light is that of depths from 0 to 1, as Direct3D, Metal and Vulkan have them; it is as wide as the whole penumbra
