@@ -16,7 +16,7 @@ impl DepthMap for FacetMap {
     #[inline(always)]
     fn depth(&self, texel: IVec2) -> f32 {
         let Some((tile, middle, within)) = self.tile(texel) else { return f32::INFINITY };
-        match tile.plane(middle, within) {
+        match tile.reader(middle).texel(within) {
             tile::Stored::Depth(depth) => depth,
             tile::Stored::Plane(plane) => self.depths.depth(texel, &plane),
         }

@@ -101,8 +101,8 @@ impl FacetMap {
 
     /// The plane of a texel that is not refined.
     #[inline(always)]
-    fn plane(&self, tile: &FacetTile, texel: IVec2, middle: DVec2, within: UVec2) -> Affine {
-        match tile.plane(middle, within) {
+    fn plane(&self, reader: &tile::Reader<'_>, texel: IVec2) -> Affine {
+        match reader.texel(texel.as_uvec2() & (TILE - 1)) {
             tile::Stored::Plane(plane) => plane,
             tile::Stored::Depth(depth) => Affine::constant(self.key(texel, depth)),
         }

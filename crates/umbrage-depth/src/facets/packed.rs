@@ -19,6 +19,9 @@ pub(super) struct Numbers<'a> {
 }
 
 impl Numbers<'_> {
+    /// All numbers are 0.
+    pub const ZERO: Self = Self { words: &[0], shift: 31, log: 0, mask: 0 };
+
     #[inline(always)]
     pub fn get(self, index: usize) -> u32 {
         let place = (index as u32 & ((1 << self.shift) - 1)) << self.log;
@@ -52,7 +55,7 @@ impl Packed {
     /// What reads many of them.
     #[inline(always)]
     pub fn numbers(&self) -> Numbers<'_> {
-        let Some(log) = self.log else { return Numbers { words: &[0], shift: 31, log: 0, mask: 0 } };
+        let Some(log) = self.log else { return Numbers::ZERO };
         Numbers { words: &self.words, shift: 5 - log, log, mask: u32::MAX >> (32 - (1 << log)) }
     }
 

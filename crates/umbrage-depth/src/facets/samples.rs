@@ -1,10 +1,10 @@
 //! Samples and links of a map.
 
 use super::source::{FacetSample, FacetSource};
-use super::tile::FacetTile;
+use super::tile::Reader;
 use super::{FacetMap, SHIFT};
 use crate::TILE;
-use glam::{DVec2, IVec2, UVec2};
+use glam::IVec2;
 use umbrage_plane::{Affine, TexelRect};
 
 impl FacetMap {
@@ -20,10 +20,10 @@ impl FacetMap {
 
     /// The sample of a texel that is not refined; nothing is outside the map.
     #[inline(always)]
-    fn whole(&self, texel: IVec2, found: Option<(&FacetTile, DVec2, UVec2)>) -> FacetSample {
-        let centre = texel.as_dvec2() + 0.5;
-        let Some((tile, middle, within)) = found else { return FacetSample::nothing(centre) };
-        FacetSample { plane: self.plane(tile, texel, middle, within), at: centre, side: 1.0 }
+    fn whole(&self, texel: IVec2, reader: Option<&Reader<'_>>) -> FacetSample {
+        let at = texel.as_dvec2() + 0.5;
+        let Some(reader) = reader else { return FacetSample::nothing(at) };
+        FacetSample { plane: self.plane(reader, texel), at, side: 1.0 }
     }
 
     /// The sample of a refined texel at a place of the finer grid.
@@ -31,6 +31,48 @@ impl FacetMap {
     fn part(&self, at: IVec2, plane: Affine) -> FacetSample {
         let side = 1.0 / f64::from(self.fine);
         FacetSample { plane, at: (at.as_dvec2() + 0.5) * side, side }
+    }
+
+    /// [`FacetSource::each_sample`] of `texels`, all of which are of one tile; false where `each` was.
+    #[inline(always)]
+    fn each_of_tile(
+        &self,
+        texels: TexelRect,
+        rect: TexelRect,
+        each: &mut dyn FnMut(TexelRect, &FacetSample) -> bool,
+    ) -> bool {
+        let (size, fine) = (self.depths.view.size().as_ivec2(), self.fine as i32);
+        let reader = self.tile(texels.min).map(|(tile, middle, _)| tile.reader(middle));
+        for y in texels.min.y..texels.max.y {
+            let (top, bottom) = (rect.min.y.max(y * fine), rect.max.y.min((y + 1) * fine));
+            let reader = reader.as_ref().filter(|_| y < size.y);
+            let refined = reader.map_or(0, |reader| reader.refined(y as u32 & (TILE - 1)));
+            for x in texels.min.x..texels.max.x {
+                let texel = IVec2::new(x, y);
+                let (left, right) = (rect.min.x.max(x * fine), rect.max.x.min((x + 1) * fine));
+                let reader = reader.filter(|_| x < size.x);
+                let within = texel.as_uvec2() & (TILE - 1);
+                let Some(reader) = reader.filter(|_| refined >> within.x & 1 == 1) else {
+                    let part = TexelRect { min: IVec2::new(left, top), max: IVec2::new(right, bottom) };
+                    if !each(part, &self.whole(texel, reader)) {
+                        return false;
+                    }
+                    continue;
+                };
+                let first = reader.block(within, self.fine).wrapping_sub(((y * fine + x) * fine) as usize);
+                for row in top..bottom {
+                    let first = first.wrapping_add((row * fine) as usize);
+                    for column in left..right {
+                        let at = IVec2::new(column, row);
+                        let plane = reader.sample(first.wrapping_add(column as usize));
+                        if !each(TexelRect { min: at, max: at + 1 }, &self.part(at, plane)) {
+                            return false;
+                        }
+                    }
+                }
+            }
+        }
+        true
     }
 }
 
@@ -44,53 +86,27 @@ impl FacetSource for FacetMap {
     #[inline(always)]
     fn sample(&self, at: IVec2) -> FacetSample {
         let texel = self.texel_of(at);
-        let found = self.tile(texel);
-        if let Some((tile, middle, within)) = found
-            && let Some(block) = tile.block(middle, within)
-        {
-            let place = at - texel * self.fine as i32;
-            return self.part(at, block.plane((place.y * self.fine as i32 + place.x) as usize, self.fine));
+        let Some((tile, middle, within)) = self.tile(texel) else { return self.whole(texel, None) };
+        let reader = tile.reader(middle);
+        if reader.refined(within.y) >> within.x & 1 == 0 {
+            return self.whole(texel, Some(&reader));
         }
-        self.whole(texel, found)
+        let place = at - texel * self.fine as i32;
+        let number = reader.block(within, self.fine) + (place.y * self.fine as i32 + place.x) as usize;
+        self.part(at, reader.sample(number))
     }
 
     /// Once for a texel that is not refined.
     #[inline(always)]
     fn each_sample(&self, rect: TexelRect, each: &mut dyn FnMut(TexelRect, &FacetSample) -> bool) {
         let (from, to) = (self.texel_of(rect.min), self.texel_of(rect.max - 1));
-        let (whole, fine) = (TexelRect::of_size(self.depths.view.size()), self.fine as i32);
-        // A tile is looked up once for all of its texels that follow each other.
-        let mut last = (IVec2::MIN, None);
-        for y in from.y..=to.y {
-            let (top, bottom) = (rect.min.y.max(y * fine), rect.max.y.min((y + 1) * fine));
-            for x in from.x..=to.x {
-                let texel = IVec2::new(x, y);
-                let found = if whole.contains(texel) {
-                    if last.0 != texel >> SHIFT {
-                        last = (texel >> SHIFT, self.tile(texel));
-                    }
-                    last.1.map(|(tile, middle, _)| (tile, middle, texel.as_uvec2() & (TILE - 1)))
-                } else {
-                    None
-                };
-                let (left, right) = (rect.min.x.max(x * fine), rect.max.x.min((x + 1) * fine));
-                let block = found.and_then(|(tile, middle, within)| tile.block(middle, within));
-                let Some(block) = block else {
-                    let part = TexelRect { min: IVec2::new(left, top), max: IVec2::new(right, bottom) };
-                    if !each(part, &self.whole(texel, found)) {
-                        return;
-                    }
-                    continue;
-                };
-                for row in top..bottom {
-                    let first = ((row - y * fine) * fine - x * fine) as usize;
-                    for column in left..right {
-                        let at = IVec2::new(column, row);
-                        let plane = block.plane(first.wrapping_add(column as usize), self.fine);
-                        if !each(TexelRect { min: at, max: at + 1 }, &self.part(at, plane)) {
-                            return;
-                        }
-                    }
+        let (low, high) = (from >> SHIFT, to >> SHIFT);
+        for y in low.y..=high.y {
+            for x in low.x..=high.x {
+                let origin = IVec2::new(x, y) << SHIFT;
+                let texels = TexelRect { min: from.max(origin), max: (to + 1).min(origin + TILE as i32) };
+                if !self.each_of_tile(texels, rect, each) {
+                    return;
                 }
             }
         }
@@ -105,14 +121,14 @@ impl FacetSource for FacetMap {
         if last.cmpge(IVec2::splat(TILE as i32)).any() || to.cmpge(self.depths.view.size().as_ivec2()).any() {
             return None;
         }
-        tile.is_one_facet(within, last.as_uvec2()).then(|| self.whole(from, Some((tile, middle, within))))
+        tile.is_one_facet(within, last.as_uvec2()).then(|| self.whole(from, Some(&tile.reader(middle))))
     }
 
     #[inline(always)]
     fn link(&self, at: IVec2, down: bool) -> Option<f64> {
         let texel = self.texel_of(at);
-        let (tile, middle, within) = self.tile(texel)?;
-        let slots = tile.block(middle, within)?.link(at - texel * self.fine as i32, self.fine, down)?;
+        let (tile, _, within) = self.tile(texel)?;
+        let slots = tile.link(within, at - texel * self.fine as i32, self.fine, down)?;
         Some(f64::from(slots) / f64::from(self.slots))
     }
 }

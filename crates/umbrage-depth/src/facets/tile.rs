@@ -150,37 +150,30 @@ impl FacetTile {
         [(plane.at(middle) - base) as f32, plane.dx as f32, plane.dy as f32]
     }
 
-    /// The plane of a texel, over the map's texels, or its depth where only that is kept; `middle` is the tile's middle, texels.
+    /// What reads the tile, whose middle is given in texels.
     #[inline(always)]
-    pub(super) fn plane(&self, middle: DVec2, at: UVec2) -> Stored {
-        let index = (at.y * TILE + at.x) as usize;
-        match &self.cells {
-            Cells::Table { planes, texels } => Stored::Plane(planes.about(middle).get(texels.get(index))),
-            Cells::Depths(depths) => Stored::Depth(depths[index]),
-            Cells::Own { base, keys, slopes } => {
-                let [dx, dy] = slopes[index].map(f64::from);
-                let key = *base + f64::from(keys[index]);
-                if key == f64::INFINITY {
-                    return Stored::Plane(NOTHING);
-                }
-                let centre = middle - 0.5 * f64::from(TILE) + at.as_dvec2() + 0.5;
-                Stored::Plane(Affine { c: key - dx * centre.x - dy * centre.y, dx, dy })
-            }
-        }
+    pub(super) fn reader(&self, middle: DVec2) -> Reader<'_> {
+        let (planes, texels) = match &self.cells {
+            Cells::Table { planes, texels } => (Some(planes.about(middle)), texels.numbers()),
+            _ => (None, Numbers::ZERO),
+        };
+        let blocks = self.blocks.as_deref();
+        let samples = blocks.map_or(Numbers::ZERO, |blocks| blocks.samples.numbers());
+        Reader { cells: &self.cells, middle, planes, texels, blocks, samples }
     }
 
-    /// A texel's block, where it is refined; `middle` is the tile's middle, texels.
+    /// The slots that see their sample's surface, of the link from a place of a refined texel to the right or downward; `None` where it is not kept.
     #[inline(always)]
-    pub(super) fn block(&self, middle: DVec2, at: UVec2) -> Option<Block<'_>> {
+    pub(super) fn link(&self, at: UVec2, place: IVec2, fine: u32, down: bool) -> Option<u32> {
         let blocks = self.blocks.as_deref()?;
-        let row = blocks.refined[at.y as usize];
-        if row >> at.x & 1 == 0 {
+        if blocks.refined[at.y as usize] >> at.x & 1 == 0 {
             return None;
         }
-        let Cells::Table { planes, .. } = &self.cells else { return None };
-        let before = (row & ((1 << at.x) - 1)).count_ones() as usize;
-        let index = usize::from(blocks.before[at.y as usize]) + before;
-        Some(Block { planes: planes.about(middle), samples: blocks.samples.numbers(), blocks, index })
+        blocks.link(
+            blocks.index(at),
+            2 * (place.y as usize * fine as usize + place.x as usize) + usize::from(down),
+            fine,
+        )
     }
 
     /// Whether all texels of a rectangle, its last among them, have one plane of the table and none is refined.
@@ -236,35 +229,55 @@ pub(super) fn range(depths: impl Iterator<Item = f32>) -> DepthRange {
     depths.map(|depth| DepthRange { min: depth, max: depth }).reduce(DepthRange::union).unwrap_or(DepthRange::UNKNOWN)
 }
 
-/// The samples and links of a refined texel.
-pub(super) struct Block<'a> {
-    planes: PlanesAbout<'a>,
+/// A tile with everything at hand that reading many of its texels and samples takes.
+pub(super) struct Reader<'a> {
+    cells: &'a Cells,
+    middle: DVec2,
+    planes: Option<PlanesAbout<'a>>,
+    texels: Numbers<'a>,
+    blocks: Option<&'a Blocks>,
     samples: Numbers<'a>,
-    blocks: &'a Blocks,
-    /// Its place among the tile's.
-    index: usize,
 }
 
-impl Block<'_> {
-    /// The plane of a sample of the block, counted row by row.
+impl Reader<'_> {
+    /// The refined texels of a row: bit x of each.
     #[inline(always)]
-    pub fn plane(&self, sample: usize, fine: u32) -> Affine {
-        self.planes.get(self.samples.get(self.index * (fine * fine) as usize + sample))
+    pub fn refined(&self, row: u32) -> u32 {
+        self.blocks.map_or(0, |blocks| blocks.refined[row as usize])
     }
 
-    /// The slots that see their sample's surface, of the link from a place of the block to the right or downward; `None` where it is not kept.
+    /// The number of a refined texel's first sample.
     #[inline(always)]
-    pub fn link(&self, place: IVec2, fine: u32, down: bool) -> Option<u32> {
-        let link = 2 * (place.y as usize * fine as usize + place.x as usize) + usize::from(down);
-        let words = Blocks::link_words(fine);
-        let kept = &self.blocks.kept[self.index * words..][..words];
-        let (word, bit) = (link / 32, link % 32);
-        if kept[word] >> bit & 1 == 0 {
-            return None;
+    pub fn block(&self, at: UVec2, fine: u32) -> usize {
+        self.blocks.map_or(0, |blocks| blocks.index(at) * (fine * fine) as usize)
+    }
+
+    /// The plane of a sample by its number: of a refined texel's, counted row by row from its first.
+    #[inline(always)]
+    pub fn sample(&self, number: usize) -> Affine {
+        self.planes.map_or(NOTHING, |planes| planes.get(self.samples.get(number)))
+    }
+
+    /// The plane of a texel that is not refined, over the map's texels, or its depth where only that is kept.
+    #[inline(always)]
+    pub fn texel(&self, at: UVec2) -> Stored {
+        let index = (at.y * TILE + at.x) as usize;
+        if let Some(planes) = self.planes {
+            return Stored::Plane(planes.get(self.texels.get(index)));
         }
-        let before: u32 = kept[..word].iter().map(|word| word.count_ones()).sum();
-        let before = before + (kept[word] & ((1 << bit) - 1)).count_ones();
-        Some(self.blocks.places.get((self.blocks.first[self.index] + before) as usize))
+        match self.cells {
+            Cells::Table { .. } => Stored::Plane(NOTHING),
+            Cells::Depths(depths) => Stored::Depth(depths[index]),
+            Cells::Own { base, keys, slopes } => {
+                let [dx, dy] = slopes[index].map(f64::from);
+                let key = *base + f64::from(keys[index]);
+                if key == f64::INFINITY {
+                    return Stored::Plane(NOTHING);
+                }
+                let centre = self.middle - 0.5 * f64::from(TILE) + at.as_dvec2() + 0.5;
+                Stored::Plane(Affine { c: key - dx * centre.x - dy * centre.y, dx, dy })
+            }
+        }
     }
 }
 
@@ -297,10 +310,8 @@ impl PlanesAbout<'_> {
         match self {
             Self::Exact(planes) => planes[index as usize],
             Self::Near { base, planes, middle } => {
+                // Of the plane of nothing, the slopes are finite and the key stays infinite.
                 let [key, dx, dy] = planes[index as usize].map(f64::from);
-                if key == f64::INFINITY {
-                    return NOTHING;
-                }
                 Affine { c: base + key - dx * middle.x - dy * middle.y, dx, dy }
             }
         }
@@ -388,6 +399,27 @@ impl Blocks {
         blocks.before = Self::before(&blocks.refined);
         (blocks.samples, blocks.first, blocks.places) = (Packed::new(&samples), first.into(), Packed::new(&places));
         blocks
+    }
+
+    /// The place of a refined texel's block among those of the tile.
+    #[inline(always)]
+    fn index(&self, at: UVec2) -> usize {
+        let before = self.refined[at.y as usize] & ((1 << at.x) - 1);
+        usize::from(self.before[at.y as usize]) + before.count_ones() as usize
+    }
+
+    /// The slots of a block's link, by its number as in [`FacetBlock::links`]; `None` where it is not kept.
+    #[inline(always)]
+    fn link(&self, block: usize, link: usize, fine: u32) -> Option<u32> {
+        let words = Self::link_words(fine);
+        let kept = &self.kept[block * words..][..words];
+        let (word, bit) = (link / 32, link % 32);
+        if kept[word] >> bit & 1 == 0 {
+            return None;
+        }
+        let before: u32 = kept[..word].iter().map(|word| word.count_ones()).sum();
+        let before = before + (kept[word] & ((1 << bit) - 1)).count_ones();
+        Some(self.places.get((self.first[block] + before) as usize))
     }
 
     /// Words that say which links of a block are kept.

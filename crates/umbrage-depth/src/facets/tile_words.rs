@@ -72,11 +72,11 @@ impl FacetTile {
         let mut tile = Self { cells, blocks: blocks.map(Box::new), range: range(std::iter::empty()) };
         if fine == 1 {
             // It is computed rather than kept, so that no file can claim a range that the depths do not have.
-            tile.range =
-                range(valid_texels(valid).map(|at| match tile.plane(origin.as_dvec2() + 0.5 * f64::from(TILE), at) {
-                    super::tile::Stored::Depth(depth) => depth,
-                    super::tile::Stored::Plane(plane) => depth(origin + at.as_ivec2(), &plane),
-                }));
+            let reader = tile.reader(origin.as_dvec2() + 0.5 * f64::from(TILE));
+            tile.range = range(valid_texels(valid).map(|at| match reader.texel(at) {
+                super::tile::Stored::Depth(depth) => depth,
+                super::tile::Stored::Plane(plane) => depth(origin + at.as_ivec2(), &plane),
+            }));
         }
         Ok(Some(tile))
     }

@@ -1,5 +1,6 @@
 //! Where the edge runs between samples that disagree: marching squares over the samples under a region.
 
+use super::asked::integers;
 use super::grid::Grid;
 use super::voters::{LANES, OPEN};
 use crate::Crossing;
@@ -112,10 +113,11 @@ impl<'a, 'b, 'g, F: FacetSource + ?Sized, const N: usize, const CHUNKS: usize> E
         // A place at the region's rim may lie outside by rounding.
         let cell = place.max(DVec2::ZERO).min(self.last).floor();
         let within = place - cell;
-        let known = self.shape_of[(cell.y * self.columns as f64 + cell.x) as usize];
+        let whole = integers(cell);
+        let known = self.shape_of[whole.y as usize * self.columns + whole.x as usize];
         let [a, b] = match self.shapes.get(usize::from(known)) {
             Some(shape) => *shape,
-            None => self.found(cell.as_uvec2(), at),
+            None => self.found(whole.as_uvec2(), at),
         };
         a.dark(within) & b.dark(within)
     }

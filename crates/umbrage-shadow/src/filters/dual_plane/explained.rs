@@ -43,7 +43,7 @@ fn judged<S: Simd, F: FacetSource + ?Sized>(simd: S, asked: &Asked<'_, F>, at: D
 }
 
 fn vote<S: Simd, F: FacetSource + ?Sized>(simd: S, asked: &Asked<'_, F>, sample: &FacetSample, at: DVec2) -> Vote {
-    let (voters, nothing) = (Voters::of(simd, &asked.compared, &[*sample; LANES], 1), sample.plane.c == f64::INFINITY);
+    let (voters, nothing) = (Voters::of(simd, &asked.compared, &[*sample; LANES]), sample.plane.c == f64::INFINITY);
     let (there, passed) = voters.there(0);
     let world = |key: f64| if nothing { f64::NEG_INFINITY } else { key / asked.per_world };
     Vote {

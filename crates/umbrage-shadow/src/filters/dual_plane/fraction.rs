@@ -1,16 +1,17 @@
 //! The fraction of a region that is in shadow, by the cheapest test that settles it.
 
-use super::asked::{Asked, FAR};
+use super::asked::{Asked, FAR, integers};
 use super::edges::Edges;
 use super::grid::Grid;
 use super::voters::{LANES, Said, Voters};
+use arrayvec::ArrayVec;
 use fearless_simd::Simd;
 use glam::{DVec2, IVec2};
 use umbrage_depth::{FacetSample, FacetSource};
 use umbrage_plane::TexelRect;
 
 /// Samples along each side of the region that are held; larger regions read the map for each place.
-const AT_HAND: usize = 12;
+const AT_HAND: usize = 16;
 
 /// Regions of more texels along a side are not tested for whether all of their samples agree.
 const MOST_AGREED: f64 = 16.0;
@@ -27,8 +28,11 @@ impl<F: FacetSource + ?Sized> Asked<'_, F> {
         if !(low.abs().max_element() < FAR && high.abs().max_element() < FAR) {
             return (self.share(false, |_| false), 0);
         }
-        let rect = TexelRect::new(low.as_ivec2(), high.as_ivec2());
-        let inside = self.view.holds(centre.as_vec2(), reach.as_vec2());
+        let rect = TexelRect { min: integers(low), max: integers(high) };
+        // Places of the region are half a sample or more within the samples around them, which no rounding bridges.
+        let samples = TexelRect::of_size(self.view.size() * self.map.fine());
+        let inside =
+            samples.encloses(rect) && self.view.cone().is_none() || self.view.holds(centre.as_vec2(), reach.as_vec2());
         if inside && let Some(dark) = self.of_one_plane(simd, rect, reach) {
             return (f32::from(u8::from(dark)), 1);
         }
@@ -55,7 +59,7 @@ impl<F: FacetSource + ?Sized> Asked<'_, F> {
     #[inline(always)]
     fn of_one_plane<S: Simd>(&self, simd: S, rect: TexelRect, reach: DVec2) -> Option<bool> {
         let sample = self.map.one_facet(rect)?;
-        let behind = Voters::of(simd, &self.compared, &[sample; LANES], 1).behind(0);
+        let behind = Voters::of(simd, &self.compared, &[sample; LANES]).behind(0);
         // Wherever the samples of these places were taken, and the region.
         let side = 1.0 / f64::from(self.map.fine());
         let low = (rect.min.as_dvec2() * side - 1.0).min(self.compared.part.0 - reach);
@@ -70,25 +74,28 @@ impl<F: FacetSource + ?Sized> Asked<'_, F> {
     /// The common vote of all samples of a rectangle for all places of the region, where they agree, and how many were read.
     #[inline(never)]
     fn agreed<S: Simd>(&self, simd: S, rect: TexelRect) -> (Option<bool>, u32) {
-        let mut samples = [FacetSample::nothing(DVec2::ZERO); LANES];
-        let (mut count, mut said, mut looked) = (0, Said::default(), 0);
-        let votes = |samples: &[_; LANES], count| {
+        let mut samples = ArrayVec::<FacetSample, LANES>::new_const();
+        let (mut said, mut looked) = (Said::default(), 0);
+        let votes = |samples: &[_; LANES]| {
             simd.vectorize(
                 #[inline(always)]
-                || Voters::of(simd, &self.compared, samples, count),
+                || Voters::of(simd, &self.compared, samples),
             )
         };
         self.map.each_sample(rect, &mut |_, sample| {
-            samples[count] = *sample;
-            count += 1;
+            samples.push(*sample);
             looked += 1;
-            if count == LANES {
-                said.add(&votes(&samples, LANES));
-                count = 0;
+            if let Ok(four) = samples.as_slice().try_into() {
+                said.add(&votes(four));
+                samples.clear();
             }
             said.can_agree()
         });
-        said.add(&votes(&samples, count));
+        if let Some(last) = samples.last() {
+            let mut four = [*last; LANES];
+            four[..samples.len()].copy_from_slice(&samples);
+            said.add(&votes(&four));
+        }
         (said.agreed(), looked)
     }
 
@@ -99,12 +106,12 @@ impl<F: FacetSource + ?Sized> Asked<'_, F> {
             simd.vectorize(
                 #[inline(always)]
                 || {
-                    let corner = (at * f64::from(self.map.fine()) - 0.5).floor().as_ivec2();
+                    let corner = integers((at * f64::from(self.map.fine()) - 0.5).floor());
                     let mut samples = [FacetSample::nothing(DVec2::ZERO); LANES];
                     for (k, sample) in samples.iter_mut().enumerate() {
                         *sample = self.map.sample(corner + IVec2::new(k as i32 & 1, k as i32 >> 1));
                     }
-                    match Voters::of(simd, &self.compared, &samples, LANES).on(simd, at) {
+                    match Voters::of(simd, &self.compared, &samples).on(simd, at) {
                         0 => false,
                         0b1111 => true,
                         _ => self.edge(simd, corner, at),

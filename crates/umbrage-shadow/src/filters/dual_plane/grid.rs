@@ -56,14 +56,12 @@ impl<'a, 'b, F: FacetSource + ?Sized, const N: usize, const CHUNKS: usize> Grid<
             true
         });
         let mut said = Said::default();
-        let mut count = samples.len();
-        self.samples = count as u32;
+        self.samples = samples.len() as u32;
         while let Some(last) = samples.last().copied().filter(|_| samples.len() % LANES != 0) {
             samples.push(last);
         }
         for samples in samples.as_chunks().0 {
-            let voters = Voters::of(simd, &self.asked.compared, samples, count);
-            count = count.saturating_sub(LANES);
+            let voters = Voters::of(simd, &self.asked.compared, samples);
             said.add(&voters);
             self.voters.push(voters);
         }

@@ -12,6 +12,9 @@ pub(super) const LANES: usize = 4;
 /// The vote of a sample that does not judge all places of the region alike. Those of a cell are put in one byte, each a bit further up.
 pub(super) const OPEN: u8 = 1 << 4;
 
+/// A bit for each sample.
+const ALL: u8 = (1 << LANES) - 1;
+
 /// One number of each sample.
 type Lanes = [f64; LANES];
 
@@ -44,8 +47,6 @@ pub(super) struct Voters {
     /// a number is NaN; both never are.
     dark: u8,
     lit: u8,
-    /// A bit for each sample.
-    all: u8,
 }
 
 /// Each list of numbers as a vector.
@@ -81,9 +82,9 @@ fn along<S: Simd>([_, dx, dy]: [f64x4<S>; 3], [x, y]: [f64x4<S>; 2]) -> f64x4<S>
 }
 
 impl Voters {
-    /// Each of the first `count` samples as if it were alone. An empty sample, a plane infinitely far away, calls everything lit.
+    /// Each of the samples as if it were alone. An empty sample, a plane infinitely far away, calls everything lit.
     #[inline(always)]
-    pub fn of<S: Simd>(simd: S, compared: &Compared, samples: &[FacetSample; LANES], count: usize) -> Self {
+    pub fn of<S: Simd>(simd: S, compared: &Compared, samples: &[FacetSample; LANES]) -> Self {
         let [mut c, mut dx, mut dy, mut x, mut y, mut side] = [[0.0; LANES]; 6];
         for i in 0..LANES {
             let FacetSample { plane, at, side: own } = &samples[i];
@@ -107,10 +108,9 @@ impl Voters {
         let spread = (along(behind, splat(simd, u.to_array())) + along(behind, splat(simd, v.to_array()))) * more;
         let dark = there.simd_gt(zero) & (middle - spread).simd_gt(zero);
         let lit = there.simd_le(zero) | (middle + spread).simd_le(zero);
-        let all = (1 << count.min(LANES)) - 1;
-        let [dark, lit] = [dark.to_bitmask() as u8 & all, lit.to_bitmask() as u8 & all];
+        let [dark, lit] = [dark.to_bitmask() as u8, lit.to_bitmask() as u8];
         let [c, dx, dy] = behind;
-        Self { behind: [c.into(), dx.into(), dy.into()], there: there.into(), passed: passed.into(), dark, lit, all }
+        Self { behind: [c.into(), dx.into(), dy.into()], there: there.into(), passed: passed.into(), dark, lit }
     }
 
     /// The votes of all samples on a place, a bit for each.
@@ -120,7 +120,7 @@ impl Voters {
         let zero = f64x4::splat(simd, 0.0);
         let dark = there.simd_gt(zero) & at([c, dx, dy], splat(simd, place.to_array())).simd_gt(zero);
         // What is settled for all of the region is settled with a little more room.
-        (dark.to_bitmask() as u8 & !self.lit | self.dark) & self.all
+        dark.to_bitmask() as u8 & !self.lit | self.dark
     }
 
     /// A sample's vote for all places of the region: 0 lit, 1 dark, or [`OPEN`].
@@ -169,7 +169,7 @@ impl Said {
         let (dark, lit) = (voters.dark, voters.lit);
         self.dark |= dark & !lit;
         self.lit |= lit & !dark;
-        self.mixed |= !(dark ^ lit) & voters.all;
+        self.mixed |= !(dark ^ lit) & ALL;
     }
 
     /// Whether no two disagree so far.
