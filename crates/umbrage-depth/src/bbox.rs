@@ -58,6 +58,11 @@ impl DepthMap for Bbox {
     }
 
     #[inline(always)]
+    fn in_row<S: Simd>(&self, simd: S, texel: IVec2, count: u32) -> f32x16<S> {
+        rows::in_row(simd, self, (&self.depths, self.rect), texel, count)
+    }
+
+    #[inline(always)]
     fn range(&self, rect: TexelRect) -> DepthRange {
         if self.rect.intersect(rect).is_empty() { DepthRange::NOTHING } else { DepthRange::UNKNOWN }
     }

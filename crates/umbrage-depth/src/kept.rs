@@ -1,7 +1,8 @@
+use crate::map::texels_of_row;
 use crate::{
     Bbox, DeepMap, DepthMap, FacetMap, Facets, MomentMap, MomentSource, Raw, Stored, Tiled, Translucent, rows,
 };
-use fearless_simd::{Simd, f32x16};
+use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::IVec2;
 use std::str::FromStr;
 use std::sync::Arc;
@@ -180,6 +181,15 @@ impl DepthMap for Map {
             Self::Deep(map) => return one_by_one(simd, map.as_ref(), x, y),
         };
         rows::look(simd, depths, rect, within, x, y)
+    }
+
+    #[inline(always)]
+    fn in_row<S: Simd>(&self, simd: S, texel: IVec2, count: u32) -> f32x16<S> {
+        match self {
+            Self::Raw(map) => map.in_row(simd, texel, count),
+            Self::Tiled(map) => map.in_row(simd, texel, count),
+            other => f32x16::load_array(simd, texels_of_row(other, texel, count)),
+        }
     }
 
     #[inline(always)]

@@ -31,6 +31,13 @@ pub trait DepthMap: Send + Sync {
         f32x16::load_array(simd, depths)
     }
 
+    /// The depths of `count` texels of a row, at most sixteen, from `texel` to the right, as [`DepthMap::depth`] gives them; the other lanes give some depth
+    /// or +∞.
+    #[inline(always)]
+    fn in_row<S: Simd>(&self, simd: S, texel: IVec2, count: u32) -> f32x16<S> {
+        f32x16::load_array(simd, texels_of_row(self, texel, count))
+    }
+
     /// Encloses every depth of `rect`, texels outside the map included (+∞). It never decides a result, it only saves
     /// work.
     #[inline(always)]
@@ -71,6 +78,16 @@ pub trait DepthMap: Send + Sync {
     fn allocated(&self) -> usize;
 }
 
+/// The depths of texels of a row, each looked up.
+#[inline(never)]
+pub(crate) fn texels_of_row(map: &(impl DepthMap + ?Sized), texel: IVec2, count: u32) -> [f32; 16] {
+    let mut depths = [f32::INFINITY; 16];
+    for (depth, x) in depths[..count.min(16) as usize].iter_mut().zip(texel.x..) {
+        *depth = map.depth(IVec2::new(x, texel.y));
+    }
+    depths
+}
+
 /// [`DepthMap`] of something that stands for another map.
 macro_rules! forward {
     ($type:ty) => {
@@ -88,6 +105,11 @@ macro_rules! forward {
             #[inline(always)]
             fn look<S: Simd>(&self, simd: S, within: TexelRect, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
                 (**self).look(simd, within, x, y)
+            }
+
+            #[inline(always)]
+            fn in_row<S: Simd>(&self, simd: S, texel: IVec2, count: u32) -> f32x16<S> {
+                (**self).in_row(simd, texel, count)
             }
 
             #[inline(always)]

@@ -123,6 +123,11 @@ impl DepthMap for Raw {
         rows::look(simd, &self.depths, TexelRect::of_size(self.view.size()), within, x, y)
     }
 
+    #[inline(always)]
+    fn in_row<S: Simd>(&self, simd: S, texel: IVec2, count: u32) -> f32x16<S> {
+        rows::in_row(simd, self, (&self.depths, TexelRect::of_size(self.view.size())), texel, count)
+    }
+
     fn stored(&self) -> Stored {
         self.stored
     }

@@ -1,4 +1,5 @@
 use crate::DepthMap;
+use crate::map::texels_of_row;
 use fearless_simd::{Simd, f32x16, prelude::*, u32x16};
 use glam::IVec2;
 use umbrage_plane::{TexelRect, floor_texel};
@@ -50,6 +51,29 @@ pub(crate) fn look<S: Simd>(
         }
     }
     f32x16::load_array(simd, found)
+}
+
+/// [`DepthMap::in_row`] of `map`, whose depths are kept row by row for `rect` alone.
+#[inline(always)]
+pub(crate) fn in_row<S: Simd>(
+    simd: S,
+    map: &impl DepthMap,
+    (depths, rect): (&[f32], TexelRect),
+    texel: IVec2,
+    count: u32,
+) -> f32x16<S> {
+    let at = texel - rect.min;
+    let size = rect.max - rect.min;
+    if at.cmpge(IVec2::ZERO).all() && at.y < size.y && at.x <= size.x - count as i32 {
+        let first = at.y as usize * size.x as usize + at.x as usize;
+        // The last row may end before sixteen lanes do.
+        if let Some((_, row)) = depths.split_at_checked(first)
+            && let Some(row) = row.first_chunk()
+        {
+            return f32x16::load_array(simd, *row);
+        }
+    }
+    f32x16::load_array(simd, texels_of_row(map, texel, count))
 }
 
 /// A stretch of as many depths as a power of two in which all rows of `within` lie: the index of its first, and that number less one. `None` where

@@ -1,3 +1,4 @@
+use crate::map::texels_of_row;
 use crate::{DepthMap, Stored, TILE, no_surface};
 use fearless_simd::{Simd, f32x16, prelude::*, u32x16};
 use glam::{IVec2, UVec2};
@@ -223,6 +224,30 @@ impl DepthMap for Tiled {
             if let Some(Some(tile)) = self.tiles.get(tile[i] as usize) {
                 found[i] = tile.depths[place[i] as usize & (AREA - 1)];
             }
+        }
+        f32x16::load_array(simd, found)
+    }
+
+    #[inline(always)]
+    fn in_row<S: Simd>(&self, simd: S, texel: IVec2, count: u32) -> f32x16<S> {
+        let texels = TexelRect { min: texel, max: texel + IVec2::new(count as i32, 1) };
+        if !TexelRect::of_size(self.view.size()).encloses(texels) {
+            return f32x16::load_array(simd, texels_of_row(self, texel, count));
+        }
+        let (tile, at) = (texel >> SHIFT, texel.as_uvec2() & (TILE - 1));
+        let (own, first) = (self.depths_of(tile.x, tile.y), (at.y * TILE + at.x) as usize);
+        if at.x + count <= TILE
+            && let Some((_, row)) = own.split_at_checked(first)
+            && let Some(row) = row.first_chunk()
+        {
+            return f32x16::load_array(simd, *row);
+        }
+        // The row crosses a side of the tile, or sixteen lanes end after the tile's last row.
+        let tiles = [own, self.depths_of((texel.x + count as i32 - 1) >> SHIFT, tile.y)];
+        let mut found = [f32::INFINITY; 16];
+        for (i, found) in found.iter_mut().enumerate() {
+            let x = at.x as usize + i;
+            *found = tiles[x >> SHIFT & 1][(at.y as usize) << SHIFT & (AREA - 1) | x & (TILE as usize - 1)];
         }
         f32x16::load_array(simd, found)
     }

@@ -3,7 +3,7 @@ use crate::{
     Spiral, Table, Taps, Tent, Uniform, Vogel,
 };
 use fearless_simd::Simd;
-use umbrage_plane::Footprint;
+use umbrage_plane::{Footprint, TexelRect};
 
 /// Any of this crate's patterns, chosen when the program runs: what a recipe's `pattern=` becomes.
 ///
@@ -95,6 +95,11 @@ impl Pattern for AnyPattern {
     #[inline(always)]
     fn weighted(&self) -> bool {
         each!(self, pattern => pattern.weighted())
+    }
+
+    #[inline(always)]
+    fn window(&self, region: &Footprint) -> Option<TexelRect> {
+        each!(self, pattern => pattern.window(region))
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 use crate::{
     Key, Pattern, Taps,
-    grid::{Area, batches, indices},
+    grid::{Area, batches},
+    taps::indices,
 };
 use fearless_simd::{Simd, f32x16, prelude::*};
 use glam::Vec2;

@@ -3,7 +3,8 @@ use crate::{
     grid::{Area, Grid},
 };
 use fearless_simd::Simd;
-use umbrage_plane::Footprint;
+use glam::Vec2;
+use umbrage_plane::{Footprint, TexelRect};
 
 /// Every texel of the region once: the reference that sampling approximates (Reeves 1987, Fig. 2b).
 ///
@@ -18,6 +19,16 @@ pub struct EveryTexel;
 const MOST: f32 = 65_536.0;
 
 impl Pattern for EveryTexel {
+    /// Unless an axis has only the texel under the region's centre, whose tap may lie elsewhere in it.
+    #[inline(always)]
+    fn window(&self, region: &Footprint) -> Option<TexelRect> {
+        let area = Area::of(region);
+        let first = (area.low - 0.5).ceil();
+        let size = (area.high - 0.5).ceil() - first;
+        let near = size.cmpge(Vec2::ONE).all() && first.abs().max_element() < MOST && size.max_element() < MOST;
+        near.then(|| TexelRect::new(first.as_ivec2(), (first + size).as_ivec2()))
+    }
+
     #[inline(always)]
     fn taps<S: Simd>(&self, simd: S, region: &Footprint, key: Key, mut each: impl FnMut(&Taps<S>)) {
         let area = Area::of(region);

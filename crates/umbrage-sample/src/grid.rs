@@ -1,4 +1,4 @@
-use crate::{Taps, key::Draws};
+use crate::{Taps, key::Draws, taps::indices};
 use fearless_simd::{Simd, f32x16, i32x16, prelude::*};
 use glam::Vec2;
 use umbrage_plane::Footprint;
@@ -41,13 +41,6 @@ impl Area {
             weight: f32x16::splat(simd, 1.0),
         }
     }
-}
-
-/// The indices of sixteen consecutive taps, as floats. Exact below 2²⁴.
-#[inline(always)]
-pub(crate) fn indices<S: Simd>(simd: S, first: u32) -> f32x16<S> {
-    const FIRST: [f32; 16] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0];
-    f32x16::load_array(simd, FIRST) + first as f32
 }
 
 /// `total` taps in batches of sixteen: the first index of each, and the mask of those that exist.

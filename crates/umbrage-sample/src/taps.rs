@@ -1,7 +1,7 @@
 use crate::Key;
-use fearless_simd::{Simd, f32x16};
-use glam::Vec2;
-use umbrage_plane::{Footprint, vectorized};
+use fearless_simd::{Simd, f32x16, prelude::*};
+use glam::{IVec2, Vec2};
+use umbrage_plane::{Footprint, TexelRect, vectorized};
 
 /// Up to sixteen sample positions of one region.
 #[derive(Clone, Copy, Debug)]
@@ -21,11 +21,28 @@ pub struct Taps<S: Simd> {
 }
 
 impl<S: Simd> Taps<S> {
+    /// Unweighted taps at the centres of up to sixteen texels of a row, from `texel` to the right: those of a [window](Pattern::window). `first` is the
+    /// index of the first of them within the region.
+    #[inline(always)]
+    pub fn in_row(simd: S, key: Key, first: u32, texel: IVec2, count: u32) -> Self {
+        let mask = u32::from(u16::MAX) >> (16 - count.min(16));
+        let y = f32x16::splat(simd, texel.y as f32 + 0.5);
+        let [u, weight] = [key.unit_lanes(simd, first, 2), f32x16::splat(simd, 1.0)];
+        Self { x: indices(simd, 0) + (texel.x as f32 + 0.5), y, u, mask, first, weight }
+    }
+
     /// One of the taps, 0 to 15.
     #[inline(always)]
     pub fn tap(&self, i: usize) -> Tap {
         Tap { at: Vec2::new(self.x[i], self.y[i]), u: self.u[i], weight: self.weight[i] }
     }
+}
+
+/// The indices of sixteen consecutive taps, as floats. Exact below 2²⁴.
+#[inline(always)]
+pub(crate) fn indices<S: Simd>(simd: S, first: u32) -> f32x16<S> {
+    const FIRST: [f32; 16] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0];
+    f32x16::load_array(simd, FIRST) + first as f32
 }
 
 /// Where to look within a region of a map (Reeves 1987, §2, Fig. 3).
@@ -41,6 +58,14 @@ pub trait Pattern: Send + Sync {
     #[inline(always)]
     fn weighted(&self) -> bool {
         false
+    }
+
+    /// The texels of `region` where its taps are the centres of a rectangle's texels, each once and row by row, so that whole rows can be read; `None`
+    /// where they are not.
+    #[inline(always)]
+    fn window(&self, region: &Footprint) -> Option<TexelRect> {
+        let _ = region;
+        None
     }
 
     /// Calls `each` with every batch of taps of `region`, in a fixed order; at least one tap in all.

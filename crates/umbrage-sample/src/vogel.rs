@@ -1,7 +1,8 @@
 use crate::{
     Key, Pattern, Taps,
     disc::turned,
-    grid::{Area, batches, indices},
+    grid::{Area, batches},
+    taps::indices,
 };
 use fearless_simd::{Simd, f32x16, prelude::*};
 use umbrage_plane::Footprint;

@@ -1,7 +1,7 @@
 //! SIMD kernels against their scalar twins, bit for bit.
 
 use std::sync::Arc;
-use umbrage_depth::{DepthMap, Map, Raw, Tiled};
+use umbrage_depth::{Bbox, DepthMap, Map, Raw, Tiled};
 use umbrage_plane::{Bias, Kind, Receiver, Sampling, Verdict, View, vectorized};
 use umbrage_sample::{
     AnyPattern, AreaTent, Castano, Centre, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key,
@@ -83,6 +83,32 @@ fn r87_13_r87_22_simd_and_culling_agree_with_one_tap_at_a_time() {
     any(AreaTent, &maps);
     any(Vogel::default(), &maps);
     any(Spiral::default(), &maps);
+}
+
+/// Regions wide enough for whole rows of texels to be read, whose biases are drawn for each tap.
+#[test]
+fn r87_13_whole_rows_agree_with_one_tap_at_a_time() {
+    let mut wide = 0;
+    for map in [baked(Kind::Axial, Sampling::Centre), baked(Kind::Radial, Sampling::Jittered { seed: 4 })] {
+        let (raw, bbox) = (Arc::new(Raw::copy_of(&map)), Arc::new(Bbox::copy_of(&map)));
+        let storages: [Map; 3] = [Map::from(&raw), Map::from(&bbox), Map::from(&map)];
+        for least in [5.5, 8.0, 16.3] {
+            let filter = Pcf::default().with_pattern(EveryTexel).with_min_size(least);
+            let any = filter.with_pattern(AnyPattern::from(EveryTexel));
+            for (i, receiver) in receivers(&map, 400).iter().enumerate() {
+                let key = KEY.region(i as u32);
+                let plain = naive(&filter, &raw, receiver, key);
+                wide += usize::from(plain > 0.0 && plain < 1.0);
+                for map in &storages {
+                    let found = [ask(&filter, map, receiver, key), ask(&any, map, receiver, key)];
+                    assert_eq!(found.map(f32::to_bits), [plain.to_bits(); 2], "{i} of {least}: {found:?} {plain}");
+                }
+                let own = ShadowMap { filter, map: map.as_ref() }.fraction_of(receiver, key);
+                assert_eq!(own.to_bits(), plain.to_bits(), "{i} of {least}: {own} {plain}");
+            }
+        }
+    }
+    assert!(wide > 300, "{wide} regions across an edge");
 }
 
 /// Depth ranges settle regions under a cone and on planes of any reach, and change no answer.

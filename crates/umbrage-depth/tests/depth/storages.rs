@@ -3,7 +3,8 @@
 use fearless_simd::{Level, Simd, dispatch, f32x16, prelude::*};
 use glam::{DVec3, IVec2, UVec2};
 use proptest::prelude::*;
-use umbrage_depth::{Bbox, DepthMap, MapError, MomentMap, Moments, Raw, TILE, Tile, Tiled};
+use std::sync::Arc;
+use umbrage_depth::{Bbox, DepthMap, Map, MapError, MomentMap, Moments, Raw, TILE, Tile, Tiled};
 use umbrage_plane::{DepthRange, TexelRect, View, mix32};
 
 /// The one list: every storage of a map, made directly and by way of each other storage.
@@ -18,6 +19,9 @@ macro_rules! every_storage {
         $law("bbox from tiled", &Bbox::from(&tiled) $(, $more)*);
         $law("tiled", &tiled $(, $more)*);
         $law("tiled from bbox", &Tiled::from(&bbox) $(, $more)*);
+        $law("any raw", &Map::from(Arc::new(raw.clone())) $(, $more)*);
+        $law("any bbox", &Map::from(Arc::new(bbox.clone())) $(, $more)*);
+        $law("any tiled", &Map::from(Arc::new(tiled.clone())) $(, $more)*);
         $law("moments of tiled", &MomentMap::of(&tiled, Moments::Four, 1.0) $(, $more)*);
     };
 }
@@ -138,6 +142,33 @@ fn looks_alike(name: &str, storage: &impl DepthMap, raw: &Raw, seed: u32, batche
     }
 }
 
+#[inline(always)]
+fn in_row<S: Simd>(simd: S, storage: &impl DepthMap, texel: IVec2, count: u32) -> [f32; 16] {
+    storage.in_row(simd, texel, count).to_array()
+}
+
+/// Rows of one to sixteen texels: on the map, across its sides and those of its tiles, and beside it.
+fn reads_rows_alike(name: &str, storage: &impl DepthMap, raw: &Raw, seed: u32, rows: u32) {
+    let size = DepthMap::view(raw).size();
+    let mut draws = Draws(seed);
+    for _ in 0..rows {
+        let mut along = |size: u32| draws.below(size + 24) as i32 - 20;
+        let texel = IVec2::new(along(size.x), along(size.y).min(size.y as i32 + 1));
+        let count = 1 + draws.below(16);
+        for level in [Level::new(), Level::baseline()] {
+            let found = dispatch!(level, simd => in_row(simd, storage, texel, count));
+            for (found, x) in found[..count as usize].iter().zip(texel.x..) {
+                let want = stored(raw, IVec2::new(x, texel.y));
+                assert_eq!(
+                    found.to_bits(),
+                    want.to_bits(),
+                    "{name}: {found} at {x} of {count} from {texel}, not {want}"
+                );
+            }
+        }
+    }
+}
+
 fn encloses_its_range(name: &str, storage: &impl DepthMap, raw: &Raw, seed: u32) {
     let mut draws = Draws(seed);
     let size = DepthMap::view(raw).size();
@@ -203,6 +234,7 @@ fn every_storage_looks_alike_a_million_times() {
         let empty = map(width, height, |_, _| f32::INFINITY);
         for (filling, raw) in (0..).zip([full, blob, empty, map(width, height, dust)]) {
             every_storage!(&raw, looks_alike, &raw, seed * 4 + filling, 4000);
+            every_storage!(&raw, reads_rows_alike, &raw, seed * 4 + filling, 1000);
         }
     }
 }

@@ -7,13 +7,13 @@ mod twins;
 mod vectors;
 
 use fearless_simd::{Level, Simd, dispatch};
-use glam::Vec2;
+use glam::{IVec2, Vec2};
 use proptest::prelude::*;
 use twins::Twin;
 use umbrage_plane::Footprint;
 use umbrage_sample::{
     AreaTent, Castano, Centre, Density, Disc, EveryTexel, Gaussian, InsideQuadReject, InsideQuadWarp, Jittered, Key,
-    Pattern, Spiral, Table, Tap, Tent, Uniform, Vogel, each_tap, hammersley,
+    Pattern, Spiral, Table, Tap, Taps, Tent, Uniform, Vogel, each_tap, hammersley,
 };
 
 /// The one list. A new pattern is added here, and its twin in `twins`.
@@ -149,8 +149,31 @@ fn comes_one_by_one(name: &str, pattern: &impl Pattern, region: &Footprint, key:
     assert_eq!(single, taps(pattern, region, key), "{name}");
 }
 
+/// The rows of a pattern's window are its taps, in their order.
+fn reads_its_window(name: &str, pattern: &impl Pattern, region: &Footprint, key: Key) {
+    #[inline(always)]
+    fn row<S: Simd>(simd: S, key: Key, first: u32, texel: IVec2, count: u32) -> Vec<(u32, Tap)> {
+        let taps = Taps::in_row(simd, key, first, texel, count);
+        assert_eq!(taps.mask.count_ones(), count);
+        (0..16).filter(|i| taps.mask >> i & 1 == 1).map(|i| (taps.first + i, taps.tap(i as usize))).collect()
+    }
+    let Some(window) = pattern.window(region) else { return };
+    for level in [Level::new(), Level::baseline()] {
+        let mut rows = Vec::new();
+        for y in window.min.y..window.max.y {
+            for x in (window.min.x..window.max.x).step_by(16) {
+                let (first, count) = (rows.len() as u32, (window.max.x - x).min(16) as u32);
+                rows.extend(dispatch!(level, simd => row(simd, key, first, IVec2::new(x, y), count)));
+            }
+        }
+        assert_eq!(rows, taps_at(level, pattern, region, key), "{name} of {region:?}");
+    }
+}
+
 fn survives(name: &str, pattern: &impl Pattern, region: &Footprint) {
     let all = batches(Level::new(), pattern, region, key(0));
+    let window = pattern.window(region);
+    assert!(window.is_none_or(|window| window.size().max_element() <= 1 << 16), "{name}: {window:?}");
     assert!(!all.is_empty(), "{name} of {region:?}");
 }
 
@@ -180,6 +203,14 @@ proptest! {
     #[test]
     fn single_taps_are_those_of_the_batches(region in regions(), seed: u32) {
         every_pattern!(comes_one_by_one, &region, key(seed));
+    }
+
+    #[test]
+    fn a_window_has_the_taps_of_its_region(region in regions(), seed: u32) {
+        every_pattern!(reads_its_window, &region, key(seed));
+        // Half-extents of one texel and more reach at least two rows and columns of centres.
+        let wide = region.half.cmpge(Vec2::ONE).all();
+        prop_assert!(!wide || EveryTexel.window(&region).is_some(), "no window");
     }
 
     #[test]
