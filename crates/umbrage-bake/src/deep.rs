@@ -59,6 +59,9 @@ impl Default for Deep {
     }
 }
 
+/// Samples of a tile.
+const CELLS: usize = (BIN * BIN) as usize;
+
 /// A surface that a sample meets.
 #[derive(Clone, Copy)]
 struct Fragment {
@@ -102,12 +105,17 @@ where
     let moments: Vec<Moment<'a>> = moments.into_iter().map(|casters| Moment::new(&fine, casters)).collect();
     let size = fine.size();
     let grid = size.map(|side| side.div_ceil(BIN));
-    let gather = Gather { fine: &fine, moments: &moments, axis, epsilon: deep.epsilon };
+    let side = BIN / axis;
+    let slot = |cell: u32| {
+        let (texel, within) = (UVec2::new(cell % BIN, cell / BIN) / axis, UVec2::new(cell % BIN, cell / BIN) % axis);
+        ((texel.y * side + texel.x) * axis * axis + within.y * axis + within.x) as u16
+    };
+    let slots = (0..CELLS as u32).map(slot).collect();
+    let gather = Gather { fine: &fine, moments: &moments, axis, epsilon: deep.epsilon, slots };
     let tiles: Vec<Vec<Vec<Step>>> = (0..grid.x * grid.y)
         .into_par_iter()
         .map(|index| gather.tile(UVec2::new(index % grid.x, index / grid.x)))
         .collect();
-    let side = BIN / axis;
     let steps = TexelRect::of_size(view.size()).texels().map(|texel| {
         let (tile, at) = (texel.as_uvec2() / side, texel.as_uvec2() % side);
         let tile = &tiles[(tile.y * grid.x + tile.x) as usize];
@@ -132,12 +140,30 @@ impl<'a> Moment<'a> {
         let bins = Bins::new(fine, TexelRect::of_size(fine.size()), Cull::None, triangles);
         Self { bins, passes, masks }
     }
+}
 
-    /// What passes a fragment, where films of the tile let `filmed` pass.
-    fn passes(&self, filmed: &[Vec3], fragment: &Fragment) -> DVec3 {
-        let light = fragment.light as usize;
-        self.passes.get(light).unwrap_or_else(|| &filmed[light - self.passes.len()]).as_dvec3()
+/// What the samples of a tile meet at one moment.
+struct Met<'a> {
+    moment: &'a Moment<'a>,
+    /// Sample by sample in the order of [`Gather::slots`], and from the light outward.
+    fragments: Vec<Fragment>,
+    /// For each sample, the number of fragments of it and of those before it.
+    ends: Vec<u32>,
+    /// What films let pass, where fragments meet them.
+    filmed: Vec<Vec3>,
+}
+
+impl Met<'_> {
+    /// What passes a fragment.
+    fn passes(&self, fragment: &Fragment) -> DVec3 {
+        passing(self.moment, &self.filmed, fragment)
     }
+}
+
+/// What passes a fragment, where films of the tile let `filmed` pass.
+fn passing(moment: &Moment<'_>, filmed: &[Vec3], fragment: &Fragment) -> DVec3 {
+    let light = fragment.light as usize;
+    moment.passes.get(light).unwrap_or_else(|| &filmed[light - moment.passes.len()]).as_dvec3()
 }
 
 struct Gather<'a> {
@@ -145,48 +171,77 @@ struct Gather<'a> {
     moments: &'a [Moment<'a>],
     axis: u32,
     epsilon: f32,
+    /// The place of each sample of a tile, given row by row, among all of them texel by texel.
+    slots: Vec<u16>,
 }
 
 impl Gather<'_> {
     /// The compressed steps of the texels of one tile of samples, row by row; none at all where nothing is seen.
     fn tile(&self, tile: UVec2) -> Vec<Vec<Step>> {
-        let side = BIN / self.axis;
         let origin = (tile * BIN).as_ivec2();
-        let mut falls: Vec<Vec<(f32, DVec3)>> = Vec::new();
-        for moment in self.moments {
-            let (mut met, mut filmed): (Vec<Fragment>, Vec<Vec3>) = (Vec::new(), Vec::new());
-            moment.masks.tile(&moment.bins, tile, |facet, coverage| {
-                let film = moment.masks.film(facet);
-                each_fragment(self.fine, origin, facet, coverage, |cell, _, key| {
-                    if !key.is_nan() {
-                        let Facet { object, triangle: mut light, .. } = *facet;
-                        if let Some(film) = &film {
-                            light = (moment.passes.len() + filmed.len()) as u32;
-                            filmed.push(film(self.at(origin, cell as u32)));
-                        }
-                        met.push(Fragment { cell: cell as u16, key, object, light });
-                    }
-                });
-            });
-            if met.is_empty() {
-                continue;
-            }
-            // By sample, from the light outward; ids, then what passes, make one order of equal keys.
-            met.sort_unstable_by(|a, b| {
-                let by_light = || compare(moment.passes(&filmed, a), moment.passes(&filmed, b));
-                let by_key = a.cell.cmp(&b.cell).then(a.key.total_cmp(&b.key));
-                by_key.then(a.object.cmp(&b.object)).then_with(by_light)
-            });
-            falls.resize((side * side) as usize, Vec::new());
-            for sample in met.chunk_by(|a, b| a.cell == b.cell) {
-                let cell = u32::from(sample[0].cell);
-                let texel = UVec2::new(cell % BIN, cell / BIN) / self.axis;
-                let surfaces = sample.iter().map(|met| (met.key, moment.passes(&filmed, met)));
-                self.add(surfaces, self.at(origin, cell), &mut falls[(texel.y * side + texel.x) as usize]);
-            }
+        let met: Vec<Met<'_>> = self.moments.iter().filter_map(|moment| self.met(moment, tile)).collect();
+        if met.is_empty() {
+            return Vec::new();
         }
-        let samples = f64::from(self.axis * self.axis) * self.moments.len() as f64;
-        falls.into_iter().map(|falls| compress_steps(&steps(falls, samples), self.epsilon)).collect()
+        let of_texel = (self.axis * self.axis) as usize;
+        let samples = of_texel as f64 * self.moments.len() as f64;
+        let mut falls = Vec::new();
+        let texel = |texel: usize| {
+            falls.clear();
+            for met in &met {
+                for sample in texel * of_texel..(texel + 1) * of_texel {
+                    let first = if sample == 0 { 0 } else { met.ends[sample - 1] };
+                    let fragments = &met.fragments[first as usize..met.ends[sample] as usize];
+                    if let Some(Fragment { cell, .. }) = fragments.first() {
+                        let surfaces = fragments.iter().map(|fragment| (fragment.key, met.passes(fragment)));
+                        self.add(surfaces, self.at(origin, (*cell).into()), &mut falls);
+                    }
+                }
+            }
+            compress_steps(&steps(&mut falls, samples), self.epsilon)
+        };
+        (0..CELLS / of_texel).map(texel).collect()
+    }
+
+    /// What the samples of a tile meet at a moment; `None` where that is nothing.
+    fn met<'m>(&self, moment: &'m Moment<'m>, tile: UVec2) -> Option<Met<'m>> {
+        let origin = (tile * BIN).as_ivec2();
+        let (mut found, mut filmed) = (Vec::new(), Vec::new());
+        let mut ends = vec![0; CELLS];
+        moment.masks.tile(&moment.bins, tile, |facet, coverage| {
+            let film = moment.masks.film(facet);
+            each_fragment(self.fine, origin, facet, coverage, |cell, _, key| {
+                if !key.is_nan() {
+                    let Facet { object, triangle: mut light, .. } = *facet;
+                    if let Some(film) = &film {
+                        light = (moment.passes.len() + filmed.len()) as u32;
+                        filmed.push(film(self.at(origin, cell as u32)));
+                    }
+                    ends[usize::from(self.slots[cell])] += 1;
+                    found.push(Fragment { cell: cell as u16, key, object, light });
+                }
+            });
+        });
+        let nothing = *found.first()?;
+        // Each fragment is put where its sample's begin, which moves that place to where they end.
+        let mut first = 0;
+        for end in &mut ends {
+            first += std::mem::replace(end, first);
+        }
+        let mut fragments = vec![nothing; found.len()];
+        for fragment in found {
+            let place = &mut ends[usize::from(self.slots[usize::from(fragment.cell)])];
+            fragments[*place as usize] = fragment;
+            *place += 1;
+        }
+        // Ids, then what passes, make one order of equal keys.
+        for sample in fragments.chunk_by_mut(|a, b| a.cell == b.cell) {
+            sample.sort_unstable_by(|a, b| {
+                let by_light = || compare(passing(moment, &filmed, a), passing(moment, &filmed, b));
+                a.key.total_cmp(&b.key).then(a.object.cmp(&b.object)).then_with(by_light)
+            });
+        }
+        Some(Met { moment, fragments, ends, filmed })
     }
 
     /// Where a sample of the tile at `origin` is, in samples.
@@ -212,7 +267,7 @@ impl Gather<'_> {
 }
 
 /// The steps of a texel from what each of its samples loses at which depth.
-fn steps(mut falls: Vec<(f32, DVec3)>, samples: f64) -> Vec<Step> {
+fn steps(falls: &mut [(f32, DVec3)], samples: f64) -> Vec<Step> {
     // One order whatever the samples came in, so that sums round alike.
     falls.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then_with(|| compare(a.1, b.1)));
     let (mut lost, mut before) = (DVec3::ZERO, Vec3::ONE);

@@ -35,7 +35,7 @@ fn filters(criterion: &mut Criterion) {
     let recipes = [
         ("pcf", "reeves87", 16),
         ("pcf-plane", "reeves87,depth=plane,bias=0.3", 16),
-        ("pcf-every", "reeves87,pattern=every,min-size=8", 256),
+        ("pcf-every", "reeves87,pattern=every,min-size=8,depth=plane,bias=0.3", 256),
         ("ordinary", "reeves87,pattern=centre,bias=0.35", 1),
         ("williams", "williams78,bias=0.35,lookup=bilinear", 4),
         ("midpoint", "woo92", 16),
