@@ -266,7 +266,7 @@ impl<'a, S: Simd, M: DepthMap, P: Probe> Query<'a, S, M, P> {
                 if let Some(deep) = deep {
                     let from = Passing { deep, channel, view, inside, weighted };
                     // A copy is passed: the taps themselves stay in registers if no other function is given them.
-                    from.add(&{ *taps }, &compared.into(), (&mut hits, &mut count));
+                    from.add(simd, &{ *taps }, &compared.into(), (&mut hits, &mut count));
                     if P::EXPLAINS {
                         let compared: [f32; 16] = compared.into();
                         let dark = std::array::from_fn(|i| from.dark(taps.tap(i).at, compared[i]));

@@ -20,15 +20,23 @@ pub(crate) struct Passing<'a> {
 impl Passing<'_> {
     /// Adds what does not pass at each tap, and the taps' weights. Apart from the loop around it, because that is compiled many times.
     #[inline(never)]
-    pub fn add<S: Simd>(&self, taps: &Taps<S>, compared: &[f32; 16], (hits, count): (&mut f32, &mut f32)) {
-        for i in (0..16).filter(|i| taps.mask >> i & 1 == 1) {
-            let weight = if self.weighted { taps.weight[i] } else { 1.0 };
-            *count += weight;
-            *hits += weight * self.dark(taps.tap(i).at, compared[i]);
-        }
+    pub fn add<S: Simd>(&self, simd: S, taps: &Taps<S>, compared: &[f32; 16], (hits, count): (&mut f32, &mut f32)) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                for (i, compared) in compared.iter().enumerate() {
+                    if taps.mask >> i & 1 == 1 {
+                        let weight = if self.weighted { taps.weight[i] } else { 1.0 };
+                        *count += weight;
+                        *hits += weight * self.dark(taps.tap(i).at, *compared);
+                    }
+                }
+            },
+        );
     }
 
     /// What does not pass at one tap.
+    #[inline(always)]
     pub fn dark(&self, at: Vec2, compared: f32) -> f32 {
         let passes = || self.deep.transmittance(at.floor().as_ivec2(), compared);
         let ruled = ruled(self.view, self.inside, at);
