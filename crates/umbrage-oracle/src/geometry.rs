@@ -118,6 +118,29 @@ struct Near {
     distance: f64,
 }
 
+/// The box of a facet with an area.
+struct Boxed {
+    leaf: u32,
+    face: u32,
+    first: DVec3,
+    last: DVec3,
+    /// Its longest side.
+    size: f64,
+}
+
+impl Boxed {
+    /// How far off the facet a point counts as on it, given the largest coordinate about the geometry's origin.
+    fn reach(&self, about: f64) -> f64 {
+        ROUNDED * (about + self.size)
+    }
+
+    /// Whether all places between two are farther off the box than [`Boxed::reach`], by more than anything is rounded by: they are farther off the
+    /// facet as well. As in [`Geometry::is_about`], what is true of all is true of each.
+    fn is_off(&self, low: DVec3, high: DVec3, about: f64) -> bool {
+        (self.first - high).max(low - self.last).max_element() > self.reach(about) * (1.0 + 1e-6)
+    }
+}
+
 /// What f64 arithmetic leaves between a point and the surface that it was computed on, as a fraction of coordinates and sizes:
 /// room for a point that a camera sees from a thousand times as far away.
 const EXACT: f64 = 1.0 / (1u64 << 40) as f64;
@@ -223,26 +246,31 @@ impl Geometry {
         let (none, all) = (DVec3::splat(f64::NEG_INFINITY), DVec3::splat(f64::INFINITY));
         let places = points.clone().map(|point| point.position - self.origin).filter(|at| at.is_finite());
         let (low, high) = places.fold((all, none), |(low, high), at| (low.min(at), high.max(at)));
-        let (mut leaves, mut facets) = (Vec::new(), Vec::new());
+        let (mut leaves, mut about, mut facets) = (Vec::new(), Vec::new(), Vec::new());
         self.leaves_about(0, low, high, MOST, &mut leaves);
         let apart = leaves.len() > MOST;
+        if !apart {
+            self.boxes_about(&leaves, low, high, &mut about);
+        }
         points.map(move |point| {
             let place = self.place(point.position);
             if apart {
                 leaves.clear();
+                about.clear();
                 self.leaves_about(0, place.at, place.at, usize::MAX, &mut leaves);
+                self.boxes_about(&leaves, place.at, place.at, &mut about);
             }
-            self.settled_among(&leaves, point, place, &mut facets)
+            self.settled_among(&about, point, place, &mut facets)
         })
     }
 
-    /// [`Geometry::settled`], given the point's place, all leaves that may have facets near it, and room for the facets.
-    fn settled_among(&self, leaves: &[u32], point: &SurfacePoint, place: Place, facets: &mut Vec<Near>) -> Place {
+    /// [`Geometry::settled`], given the point's place, the boxes of all facets that may be near it, and room for the facets.
+    fn settled_among(&self, about: &[Boxed], point: &SurfacePoint, place: Place, facets: &mut Vec<Near>) -> Place {
         facets.clear();
-        self.facets_about(leaves, place.at, Some(point.object), facets);
+        self.facets_about(about, place.at, Some(point.object), facets);
         let single = |at: DVec3| at.as_vec3().as_dvec3() == at;
         if facets.is_empty() && (single(point.position) || single(place.at)) {
-            self.facets_about(leaves, place.at, None, facets);
+            self.facets_about(about, place.at, None, facets);
             let normal = point.normal.as_dvec3();
             facets.retain(|facet| self.triangles[facet.face as usize].normal.cross(normal).length() < 1e-3);
         }
@@ -283,29 +311,38 @@ impl Geometry {
         }
     }
 
-    /// The facets of an object, or of any, in some leaves that are near enough to a place for [`Geometry::settled`].
-    fn facets_about(&self, leaves: &[u32], place: DVec3, object: Option<u32>, found: &mut Vec<Near>) {
+    /// The boxes of the facets in some leaves that may be near enough for [`Geometry::settled`] to a place between two.
+    fn boxes_about(&self, leaves: &[u32], low: DVec3, high: DVec3, found: &mut Vec<Boxed>) {
+        let about = low.abs().max(high.abs()).max_element();
+        for &leaf in leaves {
+            let node = &self.tree.nodes[leaf as usize];
+            let first = node.first_index as usize;
+            for &face in &self.tree.primitive_indices[first..first + node.prim_count as usize] {
+                let triangle = &self.triangles[face as usize];
+                let (first, last) = triangle.bounds();
+                let boxed = Boxed { leaf, face, first, last, size: (last - first).max_element() };
+                if triangle.normal != DVec3::ZERO && !boxed.is_off(low, high, about) {
+                    found.push(boxed);
+                }
+            }
+        }
+    }
+
+    /// The facets of an object, or of any, of some boxes that are near enough to a place for [`Geometry::settled`].
+    fn facets_about(&self, boxes: &[Boxed], place: DVec3, object: Option<u32>, found: &mut Vec<Near>) {
         let about = place.abs().max_element();
-        for leaf in leaves.iter().map(|&leaf| &self.tree.nodes[leaf as usize]) {
-            if !Self::is_about(leaf, place, place) {
+        for of_leaf in boxes.chunk_by(|a, b| a.leaf == b.leaf) {
+            if !Self::is_about(&self.tree.nodes[of_leaf[0].leaf as usize], place, place) {
                 continue;
             }
-            let first = leaf.first_index as usize;
-            for &face in &self.tree.primitive_indices[first..first + leaf.prim_count as usize] {
-                let triangle = &self.triangles[face as usize];
-                let asked = object.is_none_or(|object| self.faces[face as usize].object == object);
-                if !asked || triangle.normal == DVec3::ZERO {
+            for boxed in of_leaf.iter().filter(|boxed| !boxed.is_off(place, place, about)) {
+                let face = boxed.face;
+                if object.is_some_and(|object| self.faces[face as usize].object != object) {
                     continue;
                 }
-                let (low, high) = triangle.bounds();
-                let reach = ROUNDED * (about + (high - low).max_element());
-                // What is farther off its box, by more than anything is rounded by, is farther off the triangle.
-                if (low - place).max(place - high).max_element() > reach * (1.0 + 1e-6) {
-                    continue;
-                }
-                let at = triangle.nearest(place);
+                let at = self.triangles[face as usize].nearest(place);
                 let distance = at.distance(place);
-                if distance <= reach {
+                if distance <= boxed.reach(about) {
                     found.push(Near { face, at, distance });
                 }
             }

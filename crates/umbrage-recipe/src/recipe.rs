@@ -130,6 +130,22 @@ impl Recipe {
         }
     }
 
+    /// What the maps that it [bakes](Self::bake) depend on: a recipe of the same maps, in which everything else is as in `auto`. Where this is equal, so are the maps
+    /// of a view, and one will do for several recipes.
+    ///
+    /// ```
+    /// use umbrage_recipe::Recipe;
+    ///
+    /// let pass_1 = |recipe: &str| recipe.parse::<Recipe>().map(|recipe| recipe.pass_1());
+    /// assert_eq!(pass_1("burley,max=4t")?, pass_1("reeves87,samples=9")?);
+    /// assert_ne!(pass_1("burley,stored=midpoint")?, pass_1("burley")?);
+    /// # Ok::<(), umbrage_recipe::RecipeError>(())
+    /// ```
+    #[must_use]
+    pub fn pass_1(&self) -> Self {
+        Self { preset: PresetName::Auto, values: self.values.pass_1(), names_stored: false }
+    }
+
     /// Pass 1: the map that this recipe needs of a light's view, from triangles each with its opacity, colour, normals and holes.
     /// A caster's [mask](umbrage_bake::Caster::mask) is evaluated whatever the recipe stores.
     ///

@@ -248,6 +248,12 @@ impl Values {
         Refinement::default().with_fine(fine).with_slots(slots)
     }
 
+    /// The default's values, but for those that maps depend on.
+    pub fn pass_1(&self) -> Self {
+        let Self { rule, midpoint, deep, sub_samples, fine, slots, window, .. } = *self;
+        Self { rule, midpoint, deep, sub_samples, fine, slots, window, ..Self::of(PresetName::Auto) }
+    }
+
     /// The default's values for casters that let light pass.
     pub fn deep(self) -> Self {
         Self { rule: Rule::Deep, light: None, ..self }

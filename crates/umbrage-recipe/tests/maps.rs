@@ -225,6 +225,39 @@ fn what_is_baked_records_the_surface_that_stored_names() {
 }
 
 #[test]
+fn recipes_of_one_pass_1_bake_one_map() {
+    let presets = PresetName::ALL.map(|preset| preset.name().to_owned());
+    let stored = ["first", "second", "back-face", "midpoint", "deep", "normals"];
+    let stored = stored.map(|stored| format!("burley,stored={stored}"));
+    let finer =
+        ["auto,fine=2,slots=4", "auto,fine=1", "woo92,same=surface,sub-samples=2", "burley,stored=deep,epsilon=0.1"];
+    let texts = presets.into_iter().chain(stored).chain(finer.map(str::to_owned));
+    let made: Vec<(String, Recipe, Vec<f32>, usize)> = texts
+        .map(|text| {
+            let recipe = recipe(&text);
+            let [own, same] = [recipe, recipe.pass_1()].map(|recipe| recipe.bake(&lamp(), boards()));
+            let [own, same] = [own, same].map(|map| {
+                let texels = (0..64 * 64).map(|i| map.depth(IVec2::new(i % 64, i / 64)));
+                (texels.collect::<Vec<f32>>(), map.allocated())
+            });
+            assert_eq!(own, same, "{text}");
+            (text, recipe.pass_1(), own.0, own.1)
+        })
+        .collect();
+    for (text, pass_1, ..) in &made {
+        assert_eq!(*pass_1, pass_1.pass_1(), "{text}");
+    }
+    // One preset alone compares each of these, all the others nearest surfaces.
+    let of = |name: &str| made.iter().find(|(text, ..)| text == name).map(|(_, pass_1, ..)| *pass_1);
+    for (text, like) in [("burley", "reeves87"), ("vsm", "reeves87"), ("burley,stored=midpoint", "woo92")] {
+        assert_eq!(of(text), of(like), "{text}");
+    }
+    for text in ["auto", "auto,fine=2,slots=4", "woo92", "burley,stored=second", "burley,stored=deep"] {
+        assert_ne!(of(text), of("reeves87"), "{text}");
+    }
+}
+
+#[test]
 fn a_preset_over_another_surface_is_refused_unless_it_is_meant() {
     let first = recipe("reeves87").bake(&lamp(), boards());
     let refused = |text: &str, map: &Map| recipe(text).bind(map, Storage::Tiled).err().map(|error| error.to_string());

@@ -5,10 +5,8 @@ use umbrage_bake::Masks;
 use umbrage_plane::{Cells, Facet, Facing, SurfacePoint, View};
 use umbrage_raster::{BIN, Bins, each_fragment};
 
-/// A piece of one surface within one pixel: what is shaded once (Reeves 1987).
+/// A piece of one surface within one pixel: what is shaded once (Reeves 1987). Its point stands beside it.
 pub(crate) struct Region {
-    /// Where and how large it is; its normal is the geometric one on the visible side.
-    pub point: SurfacePoint,
     /// Interpolated normal on the visible side.
     pub shading_normal: Vec3,
     /// What multiplies the diffuse colour, linear RGB.
@@ -25,6 +23,8 @@ pub(crate) struct Region {
 pub(crate) struct Gathered {
     /// In the order of their pixels.
     pub regions: Vec<Region>,
+    /// Where each region is and how large; its normal is the geometric one on the visible side.
+    pub points: Vec<SurfacePoint>,
     /// Fragments met.
     pub fragments: u64,
     /// How many of them were nearer than all before.
@@ -61,11 +61,23 @@ impl Gather<'_> {
     /// The regions of a tile in pixel order, for the pixels that are `wanted`.
     pub fn tile(&self, tile: UVec2, wanted: impl Fn(u32) -> bool) -> Gathered {
         let origin = (tile * BIN).as_ivec2();
+        let (across, picture) = (BIN / self.axis, self.view.size() / self.axis);
+        let pixel = |pixel: u32| {
+            let corner = UVec2::new(pixel % across, pixel / across) * self.axis;
+            let place = (origin.as_uvec2() + corner) / self.axis;
+            let index = place.y * self.width + place.x;
+            let drawn = place.cmplt(picture).all() && wanted(index);
+            drawn.then_some(InTile { corner, pixel, name: index.wrapping_mul(64) })
+        };
+        let pixels: Vec<InTile> = (0..across * across).filter_map(pixel).collect();
+        let mut gathered = Gathered { regions: Vec::new(), points: Vec::new(), fragments: 0, passing: 0 };
+        if pixels.is_empty() {
+            return gathered;
+        }
         let mut facets: Vec<Facet> = Vec::new();
         let mut samples = vec![NONE; (BIN * BIN) as usize];
         // What is nearer than the camera's near plane is not seen.
         let nearest = self.view.key(self.view.near()) as f32;
-        let mut gathered = Gathered { regions: Vec::new(), fragments: 0, passing: 0 };
         self.masks.tile(self.bins, tile, |facet, coverage| {
             let index = facets.len() as u32;
             facets.push(*facet);
@@ -82,36 +94,59 @@ impl Gather<'_> {
             });
         });
         if !facets.is_empty() {
-            let surfaces = facets.iter().map(|facet| Surface::of(self.soup, facet)).collect();
+            // What samples have in common does not matter where each is a region by itself.
+            let surface = |facet| Surface::of(self.soup, facet);
+            let surfaces = if self.every_sample { Vec::new() } else { facets.iter().map(surface).collect() };
             let tile = Tile { origin, samples, facets, surfaces };
-            let (across, picture) = (BIN / self.axis, self.view.size() / self.axis);
             let mut room = Room::default();
-            let least = if self.every_sample { BIN * BIN } else { across * across };
-            gathered.regions.reserve(least as usize);
-            for pixel in 0..across * across {
-                let corner = UVec2::new(pixel % across, pixel / across) * self.axis;
-                let place = (origin.as_uvec2() + corner) / self.axis;
-                if place.cmplt(picture).all() && wanted(place.y * self.width + place.x) {
-                    self.pixel(&tile, corner, pixel, &mut room, &mut gathered.regions);
+            let least = if self.every_sample { self.axis * self.axis } else { 1 };
+            gathered.regions.reserve(pixels.len() * least as usize);
+            gathered.points.reserve(pixels.len() * least as usize);
+            for pixel in &pixels {
+                if self.every_sample {
+                    self.samples(&tile, pixel, &mut room, &mut gathered);
+                } else {
+                    self.groups(&tile, pixel, &mut room, &mut gathered);
                 }
             }
         }
         gathered
     }
 
-    fn pixel(&self, tile: &Tile, corner: UVec2, pixel: u32, room: &mut Room, regions: &mut Vec<Region>) {
-        let origin = tile.origin;
-        let Room { groups, members } = room;
-        groups.clear();
-        members.clear();
-        for i in 0..self.axis * self.axis {
+    /// The samples of a pixel, each with the facet that it sees and its place in the pixel and in sample space.
+    fn seen(&self, tile: &Tile, corner: UVec2) -> impl Iterator<Item = (u32, UVec2, DVec2)> {
+        (0..self.axis * self.axis).filter_map(move |i| {
             let cell = UVec2::new(i % self.axis, i / self.axis);
             let at = corner + cell;
             let facet = tile.samples[(at.y * BIN + at.x) as usize].facet;
-            let Some(&surface) = tile.surfaces.get(facet as usize) else { continue };
-            let position = self.view.sampling().position(origin + at.as_ivec2());
-            let known = if self.every_sample { None } else { groups.iter().position(|group| group.surface == surface) };
-            let group = known.unwrap_or_else(|| {
+            let place = || self.view.sampling().position(tile.origin + at.as_ivec2());
+            (facet != NONE.facet).then(|| (facet, cell, place()))
+        })
+    }
+
+    /// Each sample of a pixel as a region.
+    fn samples(&self, tile: &Tile, pixel: &InTile, room: &mut Room, gathered: &mut Gathered) {
+        let share = 1.0 / (self.axis * self.axis) as f32;
+        for (index, (facet, _, position)) in self.seen(tile, pixel.corner).enumerate() {
+            let (mut region, mut point) = self.region(tile, facet, room, position, position);
+            if !self.points {
+                region.texture = self.texture(std::iter::once((facet, position)), 1, &tile.facets);
+            }
+            (point.region, point.cells) = (pixel.name.wrapping_add(index as u32), Cells::ALL);
+            (region.share, region.pixel) = (share, pixel.pixel);
+            gathered.regions.push(region);
+            gathered.points.push(point);
+        }
+    }
+
+    /// Each surface that a pixel sees as a region.
+    fn groups(&self, tile: &Tile, pixel: &InTile, room: &mut Room, gathered: &mut Gathered) {
+        let (mut groups, mut members) = (std::mem::take(&mut room.groups), std::mem::take(&mut room.members));
+        groups.clear();
+        members.clear();
+        for (facet, cell, position) in self.seen(tile, pixel.corner) {
+            let surface = tile.surfaces[facet as usize];
+            let group = groups.iter().position(|group| group.surface == surface).unwrap_or_else(|| {
                 groups.push(Group { surface, cells: Cells::NONE, count: 0 });
                 groups.len() - 1
             });
@@ -119,15 +154,11 @@ impl Gather<'_> {
             groups[group].count += 1;
             members.push(Member { group, position, facet });
         }
-        let middle = (origin.as_dvec2() + corner.as_dvec2()) + f64::from(self.axis) * 0.5;
-        let place = (origin / self.axis as i32).as_uvec2() + corner / self.axis;
-        let name = (place.y * self.width + place.x).wrapping_mul(64);
+        let middle = (tile.origin.as_dvec2() + pixel.corner.as_dvec2()) + f64::from(self.axis) * 0.5;
         let all = self.axis * self.axis;
-        for (index, &Group { surface, cells, count }) in groups.iter().enumerate() {
-            // Of samples that are regions by themselves, each is the only one of its group.
-            let members = if self.every_sample { &members[index..=index] } else { &members[..] };
+        for (index, &Group { cells, count, .. }) in groups.iter().enumerate() {
             let members = || members.iter().filter(|member| member.group == index);
-            let centre = if count == all && !self.every_sample {
+            let centre = if count == all {
                 middle
             } else {
                 members().map(|member| member.position).sum::<DVec2>() / f64::from(count)
@@ -136,57 +167,55 @@ impl Gather<'_> {
                 let distance = |member: &Member| member.position.distance_squared(centre);
                 distance(a).total_cmp(&distance(b))
             });
-            if let Some(&Member { position, facet, .. }) = nearest {
-                regions.push(self.region(&tile.facets[facet as usize], surface.front, centre, position));
-                let Some(region) = regions.last_mut() else { continue };
-                region.point.region = name.wrapping_add(index as u32);
-                region.point.cells = if self.every_sample { Cells::ALL } else { cells };
-                if !self.points {
-                    region.texture = self.texture(members(), count, &tile.facets);
-                }
-                region.share = count as f32 / all as f32;
-                region.pixel = pixel;
+            let Some(&Member { position, facet, .. }) = nearest else { continue };
+            let (mut region, mut point) = self.region(tile, facet, room, centre, position);
+            if !self.points {
+                let members = members().map(|member| (member.facet, member.position));
+                region.texture = self.texture(members, count, &tile.facets);
             }
+            (point.region, point.cells) = (pixel.name.wrapping_add(index as u32), cells);
+            (region.share, region.pixel) = (count as f32 / all as f32, pixel.pixel);
+            gathered.regions.push(region);
+            gathered.points.push(point);
         }
+        (room.groups, room.members) = (groups, members);
     }
 
     /// The mean of the texture and the corners' colours over the `count` samples of a group: a pixel may see many texels.
-    fn texture<'m>(&self, members: impl Iterator<Item = &'m Member>, count: u32, facets: &[Facet]) -> Vec3 {
+    fn texture(&self, members: impl Iterator<Item = (u32, DVec2)>, count: u32, facets: &[Facet]) -> Vec3 {
         let mut sum = Vec3::ZERO;
-        for member in members {
-            let facet = &facets[member.facet as usize];
+        for (facet, position) in members {
+            let facet = &facets[facet as usize];
             // They are of one object: all are plain or none.
             if self.soup.is_plain(facet.triangle) {
                 return Vec3::ONE;
             }
-            let at = self.view.world_at(member.position, facet.plane.at(member.position));
+            let at = self.view.world_at(position, facet.plane.at(position));
             sum += self.soup.colour(facet.triangle, at);
         }
         sum / count as f32
     }
 
     /// The region around `centre` (sample space) on a facet's plane; `sample` is where that facet was surely hit.
-    fn region(&self, facet: &Facet, front: bool, centre: DVec2, sample: DVec2) -> Region {
+    fn region(&self, tile: &Tile, facet: u32, room: &mut Room, centre: DVec2, sample: DVec2) -> (Region, SurfacePoint) {
+        let index = facet;
+        let facet = &tile.facets[index as usize];
+        room.side.take_if(|(known, _)| *known != index);
+        let (_, side) = room.side.get_or_insert_with(|| (index, Side::of(self.soup, facet)));
         let hit = facet.plane.at(sample);
         let spread = if self.view.is_perspective() { 0.5 * hit.abs() } else { f64::INFINITY };
         let extrapolated = facet.plane.at(centre);
         let (centre, key) = if (extrapolated - hit).abs() <= spread { (centre, extrapolated) } else { (sample, hit) };
         let position = self.view.world_at(centre, key);
-        let (triangle, normals) = self.soup.corners(facet.triangle);
-        let side = if front { 1.0 } else { -1.0 };
-        let [a, b, c] = triangle;
-        let normal = (b - a).cross(c - a).normalize_or(DVec3::Z) * side;
-        let point = SurfacePoint { object: facet.object, ..SurfacePoint::at(position, normal.as_vec3()) };
+        let &mut Side { ref triangle, ref normals, normal, sign } = side;
+        let point = SurfacePoint { object: facet.object, ..SurfacePoint::at(position, normal) };
         let zeta = if self.view.is_perspective() { -1.0 / key } else { key } as f32;
-        let region = Region { point, shading_normal: point.normal, texture: Vec3::ONE, share: 0.0, pixel: 0, zeta };
+        let region = Region { shading_normal: normal, texture: Vec3::ONE, share: 0.0, pixel: 0, zeta };
         if self.points {
-            return region;
+            return (region, point);
         }
-        Region {
-            point: point.with_corners(self.corners(facet, centre, key)),
-            shading_normal: interpolate(position, triangle, normals) * side as f32,
-            ..region
-        }
+        let shading_normal = interpolate(position, *triangle, *normals) * sign;
+        (Region { shading_normal, ..region }, point.with_corners(self.corners(facet, centre, key)))
     }
 
     /// The corners of the pixel about a place on a facet's plane (sample space) that has the depth `key`.
@@ -206,8 +235,18 @@ struct Tile {
     origin: IVec2,
     samples: Vec<Sample>,
     facets: Vec<Facet>,
-    /// What each facet is part of.
+    /// What each facet is part of, where samples are grouped by it.
     surfaces: Vec<Surface>,
+}
+
+/// A pixel of a tile.
+struct InTile {
+    /// Its upper left sample, from the tile's.
+    corner: UVec2,
+    /// Its index within the tile.
+    pixel: u32,
+    /// What its regions are numbered from.
+    name: u32,
 }
 
 /// Room for one pixel after another.
@@ -215,6 +254,30 @@ struct Tile {
 struct Room {
     groups: Vec<Group>,
     members: Vec<Member>,
+    /// The facet that was seen last: it is often that of the next sample, too.
+    side: Option<(u32, Side)>,
+}
+
+/// The side of a facet that is seen.
+#[derive(Clone, Copy)]
+struct Side {
+    /// The triangle's corners in world space, and their shading normals.
+    triangle: [DVec3; 3],
+    normals: [Vec3; 3],
+    /// The geometric normal on this side.
+    normal: Vec3,
+    /// 1 in front, where normals are the mesh's own, −1 behind.
+    sign: f32,
+}
+
+impl Side {
+    fn of(soup: &Soup, facet: &Facet) -> Self {
+        let (triangle, normals) = soup.corners(facet.triangle);
+        let sign = if facet.facing == Facing::Front { 1.0 } else { -1.0 };
+        let [a, b, c] = triangle;
+        let normal = ((b - a).cross(c - a).normalize_or(DVec3::Z) * sign).as_vec3();
+        Self { triangle, normals, normal, sign: sign as f32 }
+    }
 }
 
 /// Samples of a pixel that are shaded together.

@@ -104,7 +104,7 @@ pub fn picture(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame) -> Picture
 }
 
 /// [`picture`], of which only some pixels are drawn: those whose index, row · width + column, `wanted` accepts. The others are left as background that nobody looked
-/// at. Pixels that are drawn are the same in both.
+/// at. Pixels that are drawn are the same in both; samples are counted only in tiles that hold such pixels.
 pub fn picture_where(
     scene: &Scene,
     shadows: &[&dyn Shadow],
@@ -134,26 +134,48 @@ fn drawn(
     shaded: bool,
 ) -> Picture {
     let mut picture = Picture::empty(scene, scene.camera.size());
-    let finish = |origin, gathered| (origin, finish_tile(scene, shadows, frame, &gathered, shaded));
-    each_tile(scene, frame, !shaded, wanted, finish, |(origin, tile)| picture.place(origin, &tile));
+    let across = BIN / frame.axis_for(&scene.camera);
+    let finish = |origin, gathered| {
+        let tile = Place { origin, across };
+        (tile, SeenTile::of(scene, &gathered), LitTile::of(scene, shadows, frame, &gathered, shaded))
+    };
+    each_tile(scene, frame, !shaded, wanted, finish, |(tile, seen, lit)| {
+        picture.see(&tile, &seen);
+        picture.light(&tile, &lit);
+    });
     picture
 }
 
 /// What the camera sees of a scene, for several [pictures](picture) of it that differ in their shadows alone: its samples are taken once.
 ///
-/// Some 150 bytes are kept for each region.
+/// Some 150 bytes are kept for each region, and 70 for each pixel.
 pub struct Sight {
     frame: Frame,
-    /// The pixel at the upper left of each tile, and what is seen there.
-    tiles: Vec<(UVec2, Gathered)>,
+    /// What is seen in each tile.
+    tiles: Vec<(Place, Gathered)>,
+    /// All of a picture but shadows and shading.
+    seen: Picture,
 }
 
 impl Sight {
     /// What [`picture`] would shade.
     pub fn new(scene: &Scene, frame: &Frame) -> Self {
+        let mut seen = Picture::empty(scene, scene.camera.size());
         let mut tiles = Vec::new();
-        each_tile(scene, frame, false, |_| true, |origin, gathered| (origin, gathered), |tile| tiles.push(tile));
-        Self { frame: *frame, tiles }
+        let across = BIN / frame.axis_for(&scene.camera);
+        let finish = |origin, gathered| (Place { origin, across }, SeenTile::of(scene, &gathered), gathered);
+        each_tile(
+            scene,
+            frame,
+            false,
+            |_| true,
+            finish,
+            |(tile, pixels, gathered)| {
+                seen.see(&tile, &pixels);
+                tiles.push((tile, gathered));
+            },
+        );
+        Self { frame: *frame, tiles, seen }
     }
 
     /// The same as [`picture`] of the scene and the frame that it was made with.
@@ -167,11 +189,11 @@ impl Sight {
     }
 
     fn drawn(&self, scene: &Scene, shadows: &[&dyn Shadow], shaded: bool) -> Picture {
-        let finish = |gathered: &Gathered| finish_tile(scene, shadows, &self.frame, gathered, shaded);
-        let mut picture = Picture::empty(scene, scene.camera.size());
-        let done: Vec<TileOut> = self.tiles.par_iter().map(|(_, gathered)| finish(gathered)).collect();
-        for ((origin, _), tile) in self.tiles.iter().zip(&done) {
-            picture.place(*origin, tile);
+        let light = |(_, gathered): &(Place, Gathered)| LitTile::of(scene, shadows, &self.frame, gathered, shaded);
+        let mut picture = self.seen.clone();
+        let done: Vec<LitTile> = self.tiles.par_iter().map(light).collect();
+        for ((tile, _), lit) in self.tiles.iter().zip(&done) {
+            picture.light(tile, lit);
         }
         picture
     }
@@ -210,16 +232,80 @@ fn each_tile<T: Send>(
     }
 }
 
-/// A finished pixel of a tile.
-struct Pixel {
+/// Where a tile's pixels are.
+struct Place {
+    /// The pixel at the upper left.
+    origin: UVec2,
+    /// Pixels across it.
+    across: u32,
+}
+
+impl Place {
+    /// The index in the picture of a tile's pixel.
+    fn index(&self, pixel: u32, width: u32) -> usize {
+        let at = self.origin + UVec2::new(pixel % self.across, pixel / self.across);
+        (at.y * width + at.x) as usize
+    }
+}
+
+/// What is seen in a pixel of a tile, whatever its shadows.
+struct SeenPixel {
     index: u32,
-    colour: Vec3,
-    covered: f32,
     /// The fraction of the samples that meet the object of the largest region.
     share: f32,
     best: f32,
     point: SurfacePoint,
     zeta: f32,
+}
+
+/// What is seen in a tile, whatever its shadows.
+struct SeenTile {
+    pixels: Vec<SeenPixel>,
+    /// Of each pixel, for each light: the cosine to the light.
+    facing: Vec<f32>,
+    fragments: u64,
+    passing: u64,
+    regions: u64,
+}
+
+impl SeenTile {
+    fn of(scene: &Scene, gathered: &Gathered) -> Self {
+        let Gathered { regions, points, fragments, passing } = gathered;
+        let (fragments, passing) = (*fragments, *passing);
+        let (pixels, facing) = (Vec::new(), Vec::new());
+        let mut tile = Self { pixels, facing, fragments, passing, regions: regions.len() as u64 };
+        let mut objects = Vec::new();
+        let mut first = 0;
+        for regions in regions.chunk_by(|a, b| a.pixel == b.pixel) {
+            tile.add(scene, regions, &points[first..first + regions.len()], &mut objects);
+            first += regions.len();
+        }
+        tile
+    }
+
+    /// The pixel of some regions, at least one. `objects` is room for the objects that it meets, each with its fraction of the samples.
+    fn add(&mut self, scene: &Scene, regions: &[Region], points: &[SurfacePoint], objects: &mut Vec<(u32, f32)>) {
+        let Region { pixel: index, zeta, .. } = regions[0];
+        let mut pixel = SeenPixel { index, share: 0.0, best: 0.0, point: points[0], zeta };
+        objects.clear();
+        let start = self.facing.len();
+        self.facing.resize(start + scene.lights.len(), 0.0);
+        for (region, point) in regions.iter().zip(points) {
+            for (light, facing) in scene.lights.iter().zip(&mut self.facing[start..]) {
+                let toward = light.view.toward_eye(point.position);
+                *facing += point.normal.dot(toward.as_vec3()) * region.share;
+            }
+            match objects.iter_mut().find(|(known, _)| *known == point.object) {
+                Some((_, share)) => *share += region.share,
+                None => objects.push((point.object, region.share)),
+            }
+            if region.share > pixel.best {
+                (pixel.best, pixel.point, pixel.zeta) = (region.share, *point, region.zeta);
+            }
+        }
+        pixel.share = objects.iter().find(|(object, _)| *object == pixel.point.object).map_or(0.0, |(_, share)| *share);
+        self.pixels.push(pixel);
+    }
 }
 
 /// What one light's shadow says of a tile's regions.
@@ -229,109 +315,83 @@ struct Answer {
     passes: Vec<Vec3>,
 }
 
-/// A finished tile.
-struct TileOut {
-    /// Pixels across it.
-    across: u32,
-    pixels: Vec<Pixel>,
-    /// Of each pixel, for each light: the fraction in shadow and the cosine to the light.
-    lights: Vec<[f32; 2]>,
-    fragments: u64,
-    passing: u64,
-    regions: u64,
+/// A tile's pixels as its lights make them.
+struct LitTile {
+    /// The index of each within the tile.
+    pixels: Vec<u32>,
+    /// Of each pixel, for each light: the fraction in shadow.
+    shadow: Vec<f32>,
+    /// Of each pixel its light, and how much of it the surfaces cover that send it. None where nothing is shaded.
+    colour: Vec<(Vec3, f32)>,
 }
 
-fn finish_tile(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame, gathered: &Gathered, shaded: bool) -> TileOut {
-    let Gathered { regions, fragments, passing } = gathered;
-    let point = |region: &Region| {
-        let normal = if frame.smooth { region.shading_normal } else { region.point.normal };
-        SurfacePoint { normal, ..region.point }
+impl LitTile {
+    fn of(scene: &Scene, shadows: &[&dyn Shadow], frame: &Frame, gathered: &Gathered, shaded: bool) -> Self {
+        let Gathered { regions, points, .. } = gathered;
+        let answers = answers(scene, shadows, frame, gathered, shaded);
+        let mut tile = Self { pixels: Vec::new(), shadow: Vec::new(), colour: Vec::new() };
+        let mut arrives = vec![Vec3::ONE; answers.len()];
+        let mut first = 0;
+        for regions in regions.chunk_by(|a, b| a.pixel == b.pixel) {
+            let start = tile.shadow.len();
+            tile.shadow.resize(start + answers.len(), 0.0);
+            let mut colour = (Vec3::ZERO, 0.0);
+            for (region, index) in regions.iter().zip(first..) {
+                let point = &points[index];
+                let receives = scene.objects[point.object as usize].receives;
+                arrives.fill(Vec3::ONE);
+                for (light, answer) in answers.iter().enumerate().filter(|_| receives) {
+                    if let Some(passes) = answer.passes.get(index) {
+                        arrives[light] = *passes;
+                    }
+                    tile.shadow[start + light] += answer.fractions[index] * region.share;
+                }
+                if shaded {
+                    let toward_eye = scene.camera.toward_eye(point.position).as_vec3();
+                    colour.0 += shade(scene, (region, point), toward_eye, &arrives) * region.share;
+                    colour.1 += region.share;
+                }
+            }
+            tile.pixels.push(regions[0].pixel);
+            if shaded {
+                tile.colour.push(colour);
+            }
+            first += regions.len();
+        }
+        tile
+    }
+}
+
+/// What each light's shadow says of a tile's regions.
+fn answers(
+    scene: &Scene,
+    shadows: &[&dyn Shadow],
+    frame: &Frame,
+    Gathered { regions, points, .. }: &Gathered,
+    shaded: bool,
+) -> Vec<Answer> {
+    let smooth: Vec<SurfacePoint>;
+    let points = if frame.smooth {
+        let smoothed =
+            |(region, point): (&Region, &SurfacePoint)| SurfacePoint { normal: region.shading_normal, ..*point };
+        smooth = regions.iter().zip(points).map(smoothed).collect();
+        &smooth
+    } else {
+        points
     };
-    let points: Vec<SurfacePoint> = regions.iter().map(point).collect();
     let passes = if shaded { vec![Vec3::ONE; points.len()] } else { Vec::new() };
     let lit = |_| Answer { fractions: vec![0.0; points.len()], passes: passes.clone() };
     let mut answers: Vec<Answer> = scene.lights.iter().map(lit).collect();
     for (light, (shadow, answer)) in shadows.iter().zip(&mut answers).enumerate() {
         if scene.lights[light].casts {
             let key = Key::new(frame.seed, frame.number, light as u32);
-            shadow.fractions(&points, key, &mut answer.fractions);
+            shadow.fractions(points, key, &mut answer.fractions);
             if shaded {
-                shadow.transmittances(&points, key, &answer.fractions, &mut answer.passes);
+                shadow.transmittances(points, key, &answer.fractions, &mut answer.passes);
             }
         }
     }
-    let mut tile = TileOut {
-        across: BIN / frame.axis_for(&scene.camera),
-        pixels: Vec::new(),
-        lights: Vec::new(),
-        fragments: *fragments,
-        passing: *passing,
-        regions: regions.len() as u64,
-    };
-    let mut shading =
-        Shading { scene, shaded, answers: &answers, arrives: vec![Vec3::ONE; answers.len()], objects: Vec::new() };
-    let mut first = 0;
-    for regions in regions.chunk_by(|a, b| a.pixel == b.pixel) {
-        tile.pixels.push(shading.pixel(regions, first, &mut tile.lights));
-        first += regions.len();
-    }
-    tile
-}
-
-/// Shades the pixels of a tile.
-struct Shading<'a> {
-    scene: &'a Scene,
-    /// Whether anybody looks at its colour.
-    shaded: bool,
-    answers: &'a [Answer],
-    /// Room for what of each light arrives at a region.
-    arrives: Vec<Vec3>,
-    /// Room for the objects that a pixel meets, each with its fraction of the samples.
-    objects: Vec<(u32, f32)>,
-}
-
-impl Shading<'_> {
-    /// The pixel of some regions, at least one, the first of which has the index `first` in the tile; adds what `lights` are to hold of it.
-    fn pixel(&mut self, regions: &[Region], first: usize, lights: &mut Vec<[f32; 2]>) -> Pixel {
-        let Self { scene, shaded, answers, arrives, objects } = self;
-        let Region { pixel: index, point, zeta, .. } = regions[0];
-        let mut pixel = Pixel { index, colour: Vec3::ZERO, covered: 0.0, share: 0.0, best: 0.0, point, zeta };
-        objects.clear();
-        let start = lights.len();
-        lights.resize(start + answers.len(), [0.0; 2]);
-        for (region, index) in regions.iter().zip(first..) {
-            let receives = scene.objects[region.point.object as usize].receives;
-            arrives.fill(Vec3::ONE);
-            for (light, answer) in answers.iter().enumerate() {
-                let [shadow, facing] = &mut lights[start + light];
-                if receives {
-                    if let Some(passes) = answer.passes.get(index) {
-                        arrives[light] = *passes;
-                    }
-                    *shadow += answer.fractions[index] * region.share;
-                }
-                let toward = scene.lights[light].view.toward_eye(region.point.position);
-                *facing += region.point.normal.dot(toward.as_vec3()) * region.share;
-            }
-            if *shaded {
-                let toward_eye = scene.camera.toward_eye(region.point.position).as_vec3();
-                pixel.colour += shade(scene, region, toward_eye, arrives) * region.share;
-                pixel.covered += region.share;
-            }
-            let object = region.point.object;
-            match objects.iter_mut().find(|(known, _)| *known == object) {
-                Some((_, share)) => *share += region.share,
-                None => objects.push((object, region.share)),
-            }
-            if region.share > pixel.best {
-                pixel.best = region.share;
-                pixel.point = region.point;
-                pixel.zeta = region.zeta;
-            }
-        }
-        pixel.share = objects.iter().find(|(object, _)| *object == pixel.point.object).map_or(0.0, |(_, share)| *share);
-        pixel
-    }
+    answers
 }
 
 impl Picture {
@@ -354,25 +414,36 @@ impl Picture {
         }
     }
 
-    /// `origin` is the tile's upper left pixel.
-    fn place(&mut self, origin: UVec2, tile: &TileOut) {
-        self.fragments += tile.fragments;
-        self.passing += tile.passing;
-        self.regions += tile.regions;
-        let count = self.shadow.len();
-        for (nth, pixel) in tile.pixels.iter().enumerate() {
-            let at = origin + UVec2::new(pixel.index % tile.across, pixel.index / tile.across);
-            let index = (at.y * self.size.x + at.x) as usize;
-            self.colour[index] = self.colour[index] * (1.0 - pixel.covered) + pixel.colour;
-            for (light, &[shadow, facing]) in tile.lights[nth * count..][..count].iter().enumerate() {
-                self.shadow[light][index] = shadow;
-                self.facing[light][index] = facing;
+    /// Takes what is seen in a tile.
+    fn see(&mut self, tile: &Place, seen: &SeenTile) {
+        self.fragments += seen.fragments;
+        self.passing += seen.passing;
+        self.regions += seen.regions;
+        let count = self.facing.len();
+        for (nth, pixel) in seen.pixels.iter().enumerate() {
+            let index = tile.index(pixel.index, self.size.x);
+            for (facing, cosine) in self.facing.iter_mut().zip(&seen.facing[nth * count..]) {
+                facing[index] = *cosine;
             }
             self.object[index] = pixel.point.object;
             self.share[index] = pixel.share;
             self.position[index] = pixel.point.position;
             self.normal[index] = pixel.point.normal;
             self.depth[index] = pixel.zeta;
+        }
+    }
+
+    /// Takes what the lights make of a tile.
+    fn light(&mut self, tile: &Place, lit: &LitTile) {
+        let count = self.shadow.len();
+        for (nth, pixel) in lit.pixels.iter().enumerate() {
+            let index = tile.index(*pixel, self.size.x);
+            for (shadow, fraction) in self.shadow.iter_mut().zip(&lit.shadow[nth * count..]) {
+                shadow[index] = *fraction;
+            }
+            if let Some((colour, covered)) = lit.colour.get(nth) {
+                self.colour[index] = self.colour[index] * (1.0 - covered) + *colour;
+            }
         }
     }
 }

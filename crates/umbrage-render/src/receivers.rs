@@ -1,4 +1,4 @@
-use crate::{Frame, NOTHING, picture};
+use crate::{Frame, NOTHING, rays_where};
 use glam::DVec3;
 use umbrage_plane::{TexelRect, View};
 use umbrage_scene::Scene;
@@ -15,7 +15,7 @@ pub fn receivers(scene: &Scene, light: &View) -> Vec<DVec3> {
     // A picture of the greatest size has no room for more.
     wider.camera = scene.camera.window(TexelRect::new(glam::IVec2::NEG_ONE, size + 1)).unwrap_or(scene.camera);
     wider.lights.clear();
-    let seen = picture(&wider, &[], &Frame::CENTRES);
+    let seen = rays_where(&wider, &[], &Frame::CENTRES, |_| true);
     let reached = |i: &usize| {
         let toward = light.toward_eye(seen.position[*i]).as_vec3();
         !scene.objects[seen.object[*i] as usize].is_solid() || seen.normal[*i].dot(toward) > 0.0

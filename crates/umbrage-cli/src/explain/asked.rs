@@ -16,6 +16,14 @@ pub struct Asked {
     pub fraction: f32,
 }
 
+impl Asked {
+    /// Whether it is a region of the pixel with an index.
+    pub fn is_of(&self, index: u32) -> bool {
+        // As pictures number them: each pixel's from 64 times its index.
+        self.point.region.wrapping_sub(index.wrapping_mul(64)) < 64
+    }
+}
+
 /// A shadow that records its look-ups.
 pub struct Recorder<'a> {
     shadow: &'a dyn Shadow,

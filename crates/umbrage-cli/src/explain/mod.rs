@@ -47,8 +47,7 @@ pub fn run(cli: &Cli, args: &ExplainArgs, shell: &mut Shell<'_>) -> anyhow::Resu
         let shadow = lamp::shadow_of(&stage, lamp, &recipe)?.shadow;
         let frame = shadow::frame(args.samples, cli.seed, args.scene.frame);
         let light = Lit::new(&stage, lamp, &recipe, &*shadow, frame, &geometry);
-        for &at in &args.pixel {
-            let words = light.explained(at)?;
+        for words in light.explained(&args.pixel)? {
             if let Some(path) = &args.output {
                 let drawn = words.regions.first().context("-o: the pixel sees nothing")?.drawn();
                 write_bytes(path, drawn.context("-o: no texel was read")?.as_bytes())?;
@@ -72,8 +71,6 @@ pub struct Lit<'a> {
     lamp: &'a Lamp,
     recipe: Recipe,
     shadow: &'a dyn Shadow,
-    /// The same without a bias, made when it is needed; `None` for a recipe that has no bias.
-    unbiased: OnceCell<Option<Box<dyn Shadow>>>,
     frame: Frame,
     geometry: &'a Geometry,
 }
@@ -88,34 +85,49 @@ impl<'a> Lit<'a> {
         frame: Frame,
         geometry: &'a Geometry,
     ) -> Self {
-        Self { stage, lamp, recipe: *recipe, shadow, unbiased: OnceCell::new(), frame, geometry }
+        Self { stage, lamp, recipe: *recipe, shadow, frame, geometry }
     }
 
-    /// The explanation of a pixel inside the picture.
+    /// The explanations of pixels inside the picture, in their order. All of them are drawn at once.
     ///
     /// # Errors
     /// A recipe that cannot be used without its bias.
-    pub fn explained(&self, at: [u32; 2]) -> anyhow::Result<Words<'_>> {
+    pub fn explained(&self, pixels: &[[u32; 2]]) -> anyhow::Result<Vec<Words<'_>>> {
         let camera = &self.stage.scene.camera;
-        let index = at[1] * camera.size().x + at[0];
+        let indices: Vec<u32> = pixels.iter().map(|at| at[1] * camera.size().x + at[0]).collect();
         let recorder = Recorder::new(self.shadow);
-        let value = self.pixel(&recorder, &self.frame, index).shadow[0][index as usize];
+        let values = self.drawn(&recorder, &self.frame, &indices);
+        let asked = recorder.asked()?;
         let rays = self.rays();
-        let exact = self.pixel(&*rays, &Frame { every_sample: true, ..self.frame }, index);
-        let truth = exact.shadow[0][index as usize];
-        let mut regions: Vec<Region> = recorder.asked()?.iter().map(|asked| self.region(asked)).collect();
+        let exact = self.drawn(&*rays, &Frame { every_sample: true, ..self.frame }, &indices);
         let light = &self.stage.scene.lights[self.lamp.light].view;
         let turned = Turned { shadow: &*rays, light };
         let views = self.lamp.whole_views(&self.stage.scene);
         let judge = Judge::new((camera, views), self.geometry, (&turned, &exact.shadow[0]), shadow::seen(&exact));
-        let unjudged = judge.unjudged(index as usize);
-        if unjudged.is_none() {
-            for region in &mut regions {
-                let passes = || judge.bias_passes(index as usize, &self.recipe);
-                region.fault = fault::of(&region.answers(value, truth), || self.without_bias(index), passes)?;
+        let unbiased = OnceCell::new();
+        let words = |(at, index): (&[u32; 2], &u32)| {
+            let pixel = *index as usize;
+            let (value, truth) = (values.shadow[0][pixel], exact.shadow[0][pixel]);
+            let own = |asked: &&Asked| asked.is_of(*index);
+            let mut regions: Vec<Region> = asked.iter().filter(own).map(|asked| self.region(asked)).collect();
+            let unjudged = judge.unjudged(pixel);
+            if unjudged.is_none() {
+                let without_bias = || {
+                    if unbiased.get().is_none() {
+                        let _ = unbiased.set(self.without_bias(&indices)?);
+                    }
+                    let picture: Option<&Picture> = unbiased.get().and_then(Option::as_ref);
+                    Ok(picture.map(|picture| picture.shadow[0][pixel]))
+                };
+                for region in &mut regions {
+                    let passes = || judge.bias_passes(pixel, &self.recipe);
+                    region.fault = fault::of(&region.answers(value, truth), without_bias, passes)?;
+                }
             }
-        }
-        Ok(Words { at, light: &self.lamp.name, recipe: self.recipe.to_string(), value, truth, unjudged, regions })
+            let (light, recipe) = (&*self.lamp.name, self.recipe.to_string());
+            Ok(Words { at: *at, light, recipe, value, truth, unjudged, regions })
+        };
+        pixels.iter().zip(&indices).map(words).collect()
     }
 
     /// The truth.
@@ -123,9 +135,9 @@ impl<'a> Lit<'a> {
         shadow::rays(self.stage, self.lamp, self.geometry, None, &self.frame)
     }
 
-    /// The picture that `umbrage shadow` draws, of one pixel.
-    fn pixel(&self, shadow: &dyn Shadow, frame: &Frame, index: u32) -> Picture {
-        shadow::drawn_where(&self.stage.scene, self.lamp, &[shadow], frame, |other| other == index)
+    /// The picture that `umbrage shadow` draws, of some pixels.
+    fn drawn(&self, shadow: &dyn Shadow, frame: &Frame, indices: &[u32]) -> Picture {
+        shadow::drawn_where(&self.stage.scene, self.lamp, &[shadow], frame, |index| indices.contains(&index))
     }
 
     fn region(&self, asked: &Asked) -> Region {
@@ -152,14 +164,10 @@ impl<'a> Lit<'a> {
         }
     }
 
-    /// A pixel by the same recipe without a bias.
-    fn without_bias(&self, index: u32) -> anyhow::Result<Option<f32>> {
-        if self.unbiased.get().is_none() {
-            let recipe = self.recipe.unbiased();
-            let made = recipe.map(|recipe| lamp::shadow_of(self.stage, self.lamp, &recipe)).transpose()?;
-            let _ = self.unbiased.set(made.map(|made| made.shadow));
-        }
-        let unbiased = self.unbiased.get().and_then(Option::as_ref);
-        Ok(unbiased.map(|shadow| self.pixel(&**shadow, &self.frame, index).shadow[0][index as usize]))
+    /// Some pixels by the same recipe without a bias; `None` for a recipe that has no bias.
+    fn without_bias(&self, indices: &[u32]) -> anyhow::Result<Option<Picture>> {
+        let Some(recipe) = self.recipe.unbiased() else { return Ok(None) };
+        let made = lamp::shadow_of(self.stage, self.lamp, &recipe)?;
+        Ok(Some(self.drawn(&*made.shadow, &self.frame, indices)))
     }
 }

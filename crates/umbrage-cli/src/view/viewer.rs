@@ -5,7 +5,7 @@ use super::held::{Fault, Held};
 use super::truths::Judged;
 use super::{command, table};
 use crate::args::{Cli, SceneArgs, ViewArgs};
-use crate::explain::Lit;
+use crate::explain::{Lit, Region};
 use crate::paint::{self, FAULTS};
 use crate::scores::rounded;
 use crate::shell::Shell;
@@ -90,10 +90,12 @@ impl Viewer {
             let made = held.shadow(&lamp, &recipe)?;
             let frame = base.frame(setting, false);
             let light = Lit::new(&held.stage, &lamp, &recipe, &*made.shadow, frame, &geometry);
-            let words = light.explained(pixel)?;
-            let fault = words.regions.iter().find_map(|region| region.fault.as_ref()).map(crate::explain::Fault::name);
-            let drawn = words.regions.first().and_then(crate::explain::Region::drawn);
-            lights.push(json!({ "light": lamp.name, "words": words.to_string(), "fault": fault, "svg": drawn }));
+            for words in light.explained(&[pixel])? {
+                let fault = words.regions.iter().find_map(|region| region.fault.as_ref());
+                let (fault, drawn) =
+                    (fault.map(crate::explain::Fault::name), words.regions.first().and_then(Region::drawn));
+                lights.push(json!({ "light": lamp.name, "words": words.to_string(), "fault": fault, "svg": drawn }));
+            }
         }
         Ok(json!({ "pixel": pixel, "lights": lights }).to_string())
     }

@@ -102,7 +102,7 @@ fn strip() -> Vec<SurfacePoint> {
 }
 
 fn soft(cx: &Context) -> anyhow::Result<Made> {
-    let set = Set::new(gallery::contact_box(), cx.pick(320, 128), 1024).in_colour();
+    let set = Set::new(gallery::contact_box(), cx.pick(320, 128), 1024).in_colour().with_coloured_truths();
     let recipes = recipes(&set);
     let mut made = Made::default();
     let truth = set.truth_disc(cx, &Frame::CENTRES, LIGHT);

@@ -291,7 +291,7 @@ pub const F5: Figure = Figure {
 };
 
 fn example(cx: &Context) -> anyhow::Result<Made> {
-    let set = Set::new(gallery::sphere_plane(), cx.pick(1024, 256), 1024).in_colour();
+    let set = Set::new(gallery::sphere_plane(), cx.pick(1024, 256), 1024).in_colour().with_coloured_truths();
     let picture = set.shoot(cx, presets::reeves87().filter, &Frame::default());
     let truth = set.truth(cx);
     let centroid = |picture: &Picture| metrics::centroid(shadow_grid(picture), &of(picture, |id| id == PLANE));

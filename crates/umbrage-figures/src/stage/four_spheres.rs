@@ -16,7 +16,7 @@ use umbrage_shadow::{ShadowMap, Williams};
 pub const BITS: u32 = 16;
 
 pub fn spheres(cx: &Context) -> Set {
-    Set::new(gallery::four_spheres(), cx.pick(512, 256), cx.pick(512, 256)).in_colour()
+    Set::new(gallery::four_spheres(), cx.pick(512, 256), cx.pick(512, 256))
 }
 
 /// Bias in texel widths, "px" in the figures; the light is at infinity, so it is one world distance everywhere. A departure from

@@ -75,7 +75,8 @@ impl Stage {
         self.draw(cx, &shadows, frame)
     }
 
-    fn draw(&self, cx: &Context, shadows: &[Box<dyn Shadow + '_>], frame: &Frame) -> Picture {
+    /// The picture with any shadows.
+    pub fn draw(&self, cx: &Context, shadows: &[Box<dyn Shadow + '_>], frame: &Frame) -> Picture {
         let frame = Frame { seed: cx.seed, ..*frame };
         let shadows: Vec<&dyn Shadow> = shadows.iter().map(AsRef::as_ref).collect();
         if frame.every_sample {

@@ -5,10 +5,10 @@ use super::without_map;
 use glam::Vec3;
 use umbrage_oracle::{Geometry, RayCast, metrics};
 use umbrage_plane::{Place, SurfacePoint, View};
-use umbrage_render::{Frame, Picture, picture, rays_where};
+use umbrage_render::{Frame, Picture, rays_where};
 use umbrage_sample::Key;
 use umbrage_scene::Scene;
-use umbrage_shadow::{Shadow, Unshadowed, same_length};
+use umbrage_shadow::{Shadow, same_length};
 
 /// Surfaces whose cosine to the light is lower are not judged.
 const FACING: f32 = 0.02;
@@ -31,7 +31,7 @@ impl Many {
     /// 16 rays for each pixel, and more stratified ones for those whose 16, or whose surfaces, do not agree with each other and with those of the
     /// pixels within two: `across` × `across` of them in each of `pictures`.
     pub fn new(scene: &Scene, geometry: &Geometry, seed: u32, (across, pictures): (u32, u32)) -> Self {
-        let centre = picture(scene, &[&Unshadowed], &Frame { seed, ..Frame::CENTRES });
+        let centre = rays_where(scene, &[], &Frame { seed, ..Frame::CENTRES }, |_| true);
         let mut scene = scene.clone();
         let light = without_map(&scene.lights[0].view);
         scene.lights = vec![scene.lights[0].clone(), scene.lights[0].clone()];

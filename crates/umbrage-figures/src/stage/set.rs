@@ -1,17 +1,17 @@
 //! A scene with one light, set up for a figure: its map, the picture with a method's shadow, and the truth beside it.
 
 use super::memo::Memo;
-use super::truths::{Rays, Seen};
+use super::truths::{Baked, Rays, Seen};
 use super::{sized, without_map};
 use crate::figure::Context;
 use std::ops::Deref;
 use std::sync::{Arc, OnceLock};
 use umbrage_bake::bake;
-use umbrage_depth::{First, Map, Raw, Storage, Tiled, quantise};
+use umbrage_depth::{DepthMap, First, Map, Raw, Storage, Tiled, quantise};
 use umbrage_oracle::{AreaLight, Geometry, RayCast};
 use umbrage_plane::{Kind, Sampling, View};
 use umbrage_raster::Cull;
-use umbrage_recipe::{LightShadow, Recipe, bind};
+use umbrage_recipe::{LightShadow, PresetName, Recipe, bind};
 use umbrage_render::{Frame, Picture, Sight, Soup, light_map, light_shadow, picture, rays_where, receivers};
 use umbrage_scene::Scene;
 use umbrage_shadow::{Filter, Shadow, Unshadowed};
@@ -24,27 +24,38 @@ pub struct Set {
     pub scene: Scene,
     /// Whether its pictures are shaded; the colour of others is the background's all over.
     colours: bool,
+    /// Whether its truths are.
+    coloured_truths: bool,
     map: OnceLock<Arc<Tiled>>,
     /// By the camera; for every set of the scene.
     sights: Memo<(View, Frame), Sight>,
     /// By the camera that it is diced for.
     geometries: Memo<View, Geometry>,
-    /// By the light's view.
-    maps: Memo<(View, Recipe), Map>,
+    maps: Memo<Baked, Map>,
     lights: Memo<(View, Recipe, Storage), LightShadow>,
 }
 
 /// The most bytes that a light's maps may take to be kept: of an area light there are many.
 const KEPT: usize = 32 << 20;
+/// The most that a map of facets may take to be kept for the run.
+const SMALL: usize = 1 << 20;
 
-/// A light's shadow that its set may keep.
-pub struct Kept(Arc<LightShadow>);
+/// A light's shadow.
+pub enum Lit {
+    /// Over all that its recipe wants, which its set may keep.
+    Whole(Arc<LightShadow>),
+    /// Over one map, which its set keeps.
+    Over(Box<dyn Shadow>),
+}
 
-impl Deref for Kept {
+impl Deref for Lit {
     type Target = dyn Shadow;
 
     fn deref(&self) -> &Self::Target {
-        &*self.0.shadow
+        match self {
+            Self::Whole(light) => &*light.shadow,
+            Self::Over(shadow) => &**shadow,
+        }
     }
 }
 
@@ -66,6 +77,7 @@ impl Set {
         Self {
             scene,
             colours: false,
+            coloured_truths: false,
             map: OnceLock::new(),
             sights: Memo::default(),
             geometries: Memo::default(),
@@ -74,9 +86,14 @@ impl Set {
         }
     }
 
-    /// The same, whose pictures are shaded. Most figures look at shadows alone.
+    /// The same, whose pictures by maps are shaded. Most figures look at shadows alone.
     pub fn in_colour(self) -> Self {
         Self { colours: true, ..self }
+    }
+
+    /// The same, whose truths are shaded.
+    pub fn with_coloured_truths(self) -> Self {
+        Self { coloured_truths: true, ..self }
     }
 
     /// The same with another map of light 0.
@@ -89,7 +106,7 @@ impl Set {
         let mut scene = self.scene.clone();
         scene.lights[0].view = sized(&scene.lights[0].view, texels);
         let (sights, geometries) = (self.sights.clone(), self.geometries.clone());
-        Self { colours: self.colours, sights, geometries, ..Self::of(scene) }
+        Self { colours: self.colours, coloured_truths: self.coloured_truths, sights, geometries, ..Self::of(scene) }
     }
 
     /// Light 0's map of first depths.
@@ -122,8 +139,14 @@ impl Set {
     }
 
     /// Light 0's shadow by a recipe, over the map that the recipe wants.
-    pub fn shadow(&self, cx: &Context, recipe: &str) -> anyhow::Result<Kept> {
-        Ok(Kept(self.light(cx, &recipe.parse()?)?))
+    pub fn shadow(&self, cx: &Context, recipe: &str) -> anyhow::Result<Lit> {
+        let recipe: Recipe = recipe.parse()?;
+        if recipe.preset() == PresetName::Auto {
+            return Ok(Lit::Whole(self.light(cx, &recipe)?));
+        }
+        // Many recipes look the same map up.
+        let map = self.map_by(cx, &recipe.pass_1())?;
+        Ok(Lit::Over(recipe.bind((*map).clone(), cx.storage)?))
     }
 
     /// Light 0's shadow by a recipe, and the maps that it took.
@@ -141,14 +164,20 @@ impl Set {
     }
 
     /// The one map of light 0 by a recipe that wants no more, fitted to what the camera sees where the recipe says so.
-    pub fn map_by(&self, recipe: &Recipe) -> anyhow::Result<Arc<Map>> {
-        let view = self.scene.lights[0].view;
-        if let Some(known) = self.maps.known(&(view, *recipe)) {
+    pub fn map_by(&self, cx: &Context, recipe: &Recipe) -> anyhow::Result<Arc<Map>> {
+        let Scene { name, lights, camera, .. } = &self.scene;
+        let view = lights[0].view;
+        let baked = Baked { scene: name.clone(), light: view, camera: *camera, recipe: *recipe };
+        if let Some(known) = self.maps.known(&baked).or_else(|| cx.truths.maps.known(&baked)) {
             return Ok(known);
         }
         let fitted = if recipe.is_fitted() { view.fitted(receivers(&self.scene, &view))? } else { view };
         let map = Arc::new(light_map(recipe, &self.scene, &fitted));
-        self.maps.keep((view, *recipe), &map);
+        self.maps.keep(baked.clone(), &map);
+        // Refined maps are small, and take long to make.
+        if map.facets().is_some() && map.allocated() <= SMALL {
+            cx.truths.maps.keep(baked, &map);
+        }
         Ok(map)
     }
 
@@ -164,17 +193,23 @@ impl Set {
         if frame.every_sample {
             return picture(&self.scene, &[shadow], &frame);
         }
-        let sight = self.sights.once((self.scene.camera, frame), || Sight::new(&self.scene, &frame));
+        let sight = self.sight(&frame);
         if self.colours { sight.picture(&self.scene, &[shadow]) } else { sight.shadows(&self.scene, &[shadow]) }
+    }
+
+    fn sight(&self, frame: &Frame) -> Arc<Sight> {
+        self.sights.once((self.scene.camera, *frame), || Sight::new(&self.scene, frame))
     }
 
     /// The picture by rays, which look at no point's extent.
     pub fn draw_rays(&self, cx: &Context, rays: &dyn Shadow, frame: &Frame) -> Picture {
         let frame = Frame { seed: cx.seed, ..*frame };
-        if frame.every_sample && !self.colours {
-            return rays_where(&self.scene, &[rays], &frame, |_| true);
+        match (frame.every_sample, self.coloured_truths) {
+            (true, true) => picture(&self.scene, &[rays], &frame),
+            (true, false) => rays_where(&self.scene, &[rays], &frame, |_| true),
+            (false, true) => self.sight(&frame).picture(&self.scene, &[rays]),
+            (false, false) => self.sight(&frame).shadows(&self.scene, &[rays]),
         }
-        self.draw(cx, rays, &frame)
     }
 
     /// Rays at the very points at which a method is looked up: one hard result per region.
@@ -218,7 +253,7 @@ impl Set {
         if let Some(known) = cx.truths.pictures.known(&(seen.clone(), true)) {
             return known;
         }
-        cx.truths.pictures.once((seen, self.colours), || {
+        cx.truths.pictures.once((seen, self.coloured_truths), || {
             let geometry = self.geometry();
             self.draw_rays(cx, &*shadow(&geometry), &frame)
         })
@@ -233,7 +268,9 @@ impl Set {
     /// What a truth of it depends on.
     pub fn seen(&self, frame: Frame, rays: Rays) -> Seen {
         let Scene { name, lights, camera, .. } = &self.scene;
-        Seen { scene: name.clone(), light: without_map(&lights[0].view), camera: *camera, frame, rays }
+        // Nor does it matter in which kind of depth a map would be, or where its texels would be sampled.
+        let light = without_map(&lights[0].view).with_kind(Kind::Axial).with_sampling(Sampling::Centre);
+        Seen { scene: name.clone(), light, camera: *camera, frame, rays }
     }
 }
 

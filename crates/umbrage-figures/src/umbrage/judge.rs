@@ -89,20 +89,9 @@ impl Judge {
     pub fn by(&self, cx: &Context, recipe: &str, frame: &Frame) -> anyhow::Result<(Picture, f64)> {
         let set = &self.set;
         let texels = f64::from(set.scene.lights[0].view.size().element_product());
-        if recipe.starts_with("auto") {
-            let map = set.map_by(&without_looks(recipe).parse()?)?;
-            let shadow = recipe.parse::<Recipe>()?.bind((*map).clone(), cx.storage)?;
-            return Ok((set.draw(cx, &*shadow, frame), map.allocated() as f64 / texels));
-        }
-        let light = set.light(cx, &recipe.parse::<Recipe>()?)?;
-        let bytes = light.maps.iter().map(|map| map.bytes).sum::<usize>() as f64 / texels;
-        Ok((set.draw(cx, &*light.shadow, frame), bytes))
+        let recipe: Recipe = recipe.parse()?;
+        let map = set.map_by(cx, &recipe.pass_1())?;
+        let shadow = recipe.bind((*map).clone(), cx.storage)?;
+        Ok((set.draw(cx, &*shadow, frame), (*map).clone().kept(cx.storage).allocated() as f64 / texels))
     }
-}
-
-/// The default's recipe without what only look-ups depend on, not its map.
-fn without_looks(recipe: &str) -> String {
-    const LOOKS: [&str; 3] = ["across=", "width-term=", "slope-term="];
-    let kept = recipe.split(',').filter(|part| !LOOKS.iter().any(|look| part.starts_with(look)));
-    kept.collect::<Vec<_>>().join(",")
 }

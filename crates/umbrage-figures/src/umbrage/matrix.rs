@@ -70,7 +70,7 @@ fn presets(cx: &Context) -> anyhow::Result<Made> {
     let (papers, others) = names.split_at(METHODS.len());
     let mut sheets = [sheet(papers), sheet(others)];
     for (stage, (_, make, _)) in STAGES.iter().enumerate() {
-        let set = Set::new(make(), pixels, texels).in_colour();
+        let set = Set::new(make(), pixels, texels).with_coloured_truths();
         let truth = set.truth_points(cx, &Frame::CENTRES);
         for sheet in &mut sheets {
             sheet.place(0, stage as u32, truth.size, &truth.colour);

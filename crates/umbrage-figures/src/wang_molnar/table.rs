@@ -247,7 +247,7 @@ fn plots(case: &BiasCase, sweep: &Sweep, second: Found) -> Vec<(String, String)>
 
 fn panels(cx: &Context, foot: &Foot, large: &Foot) -> anyhow::Result<Vec<Panel>> {
     let mut panels = Vec::new();
-    let whole = |texels| Set::new(gallery::table(), cx.pick(512, 256), texels).in_colour();
+    let whole = |texels| Set::new(gallery::table(), cx.pick(512, 256), texels).in_colour().with_coloured_truths();
     let (whole, whole_large) = (whole(512), whole(2048));
     let truth = foot.set.truth_points(cx, &RAYS);
     let named = [

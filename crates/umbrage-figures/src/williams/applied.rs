@@ -24,7 +24,7 @@ pub const F6: Figure = Figure {
 
 fn applied(cx: &Context) -> anyhow::Result<Made> {
     const DENSITY: f32 = 0.7;
-    let set = spheres(cx);
+    let set = spheres(cx).in_colour();
     let shaded = set.plain(cx, &Frame::CENTRES);
     let truth = set.truth_points(cx, &Frame::CENTRES);
     let sphere = alone(&truth, &set).ok_or_else(|| anyhow::anyhow!("no sphere stands alone"))?;

@@ -17,7 +17,7 @@ use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::{Made, Measure, Role};
 use umbrage_sample::Key;
 use umbrage_scene::{Light, Material, Mesh, Object, Scene, Shape, gallery};
-use umbrage_shadow::{Shadow, ShadowMap, Unshadowed, presets};
+use umbrage_shadow::{ShadowMap, Unshadowed, presets};
 
 /// Reeves' filter against the tangent plane: the pictures are about surfaces, not about bias.
 const RECIPE: &str = "reeves87-recommended,samples=32,depth=plane,bias=0.25";
@@ -307,7 +307,7 @@ fn plane(cx: &Context) -> anyhow::Result<Made> {
     let light = scene.lights[0].view;
     let ground = Ground { centre: DVec3::ZERO, normal: DVec3::Y, half_side: 165.0 };
     let planar = Planar::new(scene, &light, ground, slab, cx.pick(4096, 2048))?;
-    let flat = picture(scene, &[&planar as &dyn Shadow], &Frame { seed: cx.seed, ..Frame::default() });
+    let flat = stage.draw(cx, &[Box::new(planar)], &Frame::default());
     let mapped = stage.shoot(cx, RECIPE, &Frame::default())?;
     let truth = stage.truth(cx, &Frame::default());
     // Outside the lamp's cone it is dark anyway, and the projection takes no account of cones.

@@ -12,7 +12,7 @@ use umbrage_oracle::metrics::{self, Grid};
 use umbrage_oracle::predict;
 use umbrage_plane::TexelRect;
 use umbrage_render::post::{dequantise_edges, low_pass};
-use umbrage_render::{Frame, Picture};
+use umbrage_render::{Frame, Picture, rays_where};
 use umbrage_report::plot::{Axis, Plot, Series};
 use umbrage_report::{Made, Measure};
 use umbrage_scene::gallery;
@@ -43,7 +43,7 @@ fn moire(image: &[f32], width: u32, sphere: &Alone) -> f64 {
 fn reduced_bias(cx: &Context) -> anyhow::Result<Made> {
     let set = spheres(cx);
     let centres = set.plain(cx, &Frame::CENTRES);
-    let snapped = set.plain(cx, &SNAPPED);
+    let snapped: Vec<Picture> = (0..DRAWS).map(|draw| snapped(cx, &set, draw)).collect();
     let truth = set.truth_points(cx, &Frame::CENTRES);
     let exact = set.truth(cx);
     let sphere = alone(&truth, &set).ok_or_else(|| anyhow::anyhow!("no sphere stands alone"))?;
@@ -101,12 +101,12 @@ fn reduced_bias(cx: &Context) -> anyhow::Result<Made> {
         "ratio",
         0.8,
     ));
-    limb(cx, &set, 100, &mut made)?;
+    limb(cx, (&set, 100), &snapped, &mut made)?;
     // The paper's wording can be read both ways.
     let set_80 = Set::new(gallery::four_spheres_lit_from(80.0), set.scene.camera.size().x, set.map().view().size().x);
-    limb(cx, &set_80, 80, &mut made)?;
+    limb(cx, (&set_80, 80), &snapped, &mut made)?;
     let one = post(cx, &set, &centres, reduced(1.0)).shadow;
-    let loose = post(cx, &set, &snapped, reduced(1.0)).shadow;
+    let loose = post(cx, &set, &snapped[0], reduced(1.0)).shadow;
     made.panels = vec![
         shadow_image_panel("reduced", "Reduced bias, points at pixel centres", truth.size, &one)
             .with("bias", "1 px")
@@ -137,9 +137,17 @@ fn terminator_offset(shadow: &[f32], width: u32, sphere: &Alone) -> f64 {
     offsets.sum::<f64>() / rows.len() as f64 / sphere.radius
 }
 
-/// With points snapped to pixels the false shadow rises toward the lit limb, where the surface turns edge-on to the observer (W78-7).
-fn limb(cx: &Context, set: &Set, degrees: u32, made: &mut Made) -> anyhow::Result<()> {
-    const DRAWS: u32 = 8;
+/// Draws of the random place in each pixel.
+const DRAWS: u32 = 8;
+
+/// What the observer sees with points snapped to pixels, one sample anywhere inside each: its depths. No light has a part in it.
+fn snapped(cx: &Context, set: &Set, draw: u32) -> Picture {
+    let frame = Frame { stochastic: true, every_sample: true, seed: cx.seed.wrapping_add(draw), ..Frame::CENTRES };
+    rays_where(&set.scene, &[], &frame, |_| true)
+}
+
+/// With points `snapped` to pixels the false shadow rises toward the lit limb, where the surface turns edge-on to the observer (W78-7).
+fn limb(cx: &Context, (set, degrees): (&Set, u32), snapped: &[Picture], made: &mut Made) -> anyhow::Result<()> {
     let truth = set.truth_points(cx, &Frame::CENTRES);
     let sphere = alone(&truth, set).ok_or_else(|| anyhow::anyhow!("no sphere stands alone"))?;
     let width = truth.size.x as usize;
@@ -155,14 +163,14 @@ fn limb(cx: &Context, set: &Set, degrees: u32, made: &mut Made) -> anyhow::Resul
         value(metrics::false_shadow(image, &mask))
     };
     // Interpolated, so that the light's own texels leave no false shadow there and what is left comes from the observer's.
-    let shadow = |frame: &Frame, cx: &Context| post(cx, set, &set.plain(cx, frame), interpolated(0.25)).shadow;
+    let shadow = |seen: &Picture, cx: &Context| post(cx, set, seen, interpolated(0.25)).shadow;
     let (mut inner, mut outer) = (0.0, 0.0);
-    for draw in 0..DRAWS {
-        let image = shadow(&SNAPPED, &Context { seed: cx.seed.wrapping_add(draw), ..cx.clone() });
+    for (draw, seen) in (0..DRAWS).zip(snapped) {
+        let image = shadow(seen, &Context { seed: cx.seed.wrapping_add(draw), ..cx.clone() });
         inner += share(&image, 0.0, 0.4) / f64::from(DRAWS);
         outer += share(&image, 0.9, 1.01) / f64::from(DRAWS);
     }
-    let unsnapped = share(&shadow(&Frame::CENTRES, cx), 0.9, 1.01);
+    let unsnapped = share(&shadow(&set.plain(cx, &Frame::CENTRES), cx), 0.9, 1.01);
     let name = |what: &str| format!("light at {degrees}°: {what}");
     made.measures.push(Measure::info(&name("false shadow at 0–.4 R toward the lit limb, snapped"), inner, "share"));
     made.measures.push(Measure::info(&name("false shadow at .9–1 R, snapped"), outer, "share"));
@@ -175,9 +183,6 @@ fn limb(cx: &Context, set: &Set, degrees: u32, made: &mut Made) -> anyhow::Resul
     made.measures.push(Measure::info(&name("lit share of the lone disc in truth"), lit_share, "share"));
     Ok(())
 }
-
-/// One sample anywhere inside each pixel.
-const SNAPPED: Frame = Frame { stochastic: true, every_sample: true, ..Frame::CENTRES };
 
 pub const F4: Figure = Figure {
     id: "W78-F4",

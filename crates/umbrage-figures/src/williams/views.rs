@@ -65,7 +65,7 @@ fn discs(picture: &Picture, view: &View, set: &Set) -> (u32, f64) {
 }
 
 fn observer(cx: &Context) -> anyhow::Result<Made> {
-    let set = spheres(cx);
+    let set = spheres(cx).in_colour();
     let picture = set.plain(cx, &Frame::CENTRES);
     let (whole, worst) = discs(&picture, &set.scene.camera, &set);
     Ok(Made {
@@ -91,7 +91,7 @@ pub const F2: Figure = Figure {
 };
 
 fn light_view(cx: &Context) -> anyhow::Result<Made> {
-    let mut set = spheres(cx);
+    let mut set = spheres(cx).in_colour();
     let light = set.scene.lights[0].view;
     set.scene.camera = light;
     let picture = set.plain(cx, &Frame::CENTRES);
@@ -124,7 +124,7 @@ pub const TEAPOT: Figure = Figure {
 };
 
 fn teapot(cx: &Context) -> anyhow::Result<Made> {
-    let set = Set::new(gallery::teapot(), cx.pick(768, 256), 1024).in_colour();
+    let set = Set::new(gallery::teapot(), cx.pick(768, 256), 1024).in_colour().with_coloured_truths();
     let depth = OnPlane::biased(Bias::World(0.3));
     let Pcf { pattern, res_factor, min_size, cull, .. } = presets::reeves87_recommended().filter;
     let pattern = pattern.with_num_samples(64);

@@ -112,8 +112,15 @@ impl Pager {
         let bytes = self.bytes(offset, self.layout.most_bytes(tile));
         let bytes = bytes.map_err(|error| Fault::new(self.layout.name(tile, offset), "unreadable", error))?;
         let samples = self.layout.samples(&self.meta, &bytes, tile, offset)?;
-        let depths = self.layout.area(tile).texels().zip(samples.as_chunks::<4>().0).map(|(texel, sample)| {
-            let value = f32::from_ne_bytes(*sample);
+        let area = self.layout.area(tile);
+        let values = samples.as_chunks::<4>().0.iter().map(|sample| f32::from_ne_bytes(*sample));
+        // Nearly all tiles are good and seen all over, and are known to be without a look at each texel's place.
+        let bad = |value: f32| value.is_nan() || value == f32::NEG_INFINITY || self.nearest.refuses(value);
+        if self.seen.intersect(area) == area && !values.clone().fold(false, |any, value| any | bad(value)) {
+            let depth = |value| if value < NO_SURFACE { self.nearest.seen(value) } else { f32::INFINITY };
+            return Ok(values.map(depth).collect());
+        }
+        let depths = area.texels().zip(values).map(|(texel, value)| {
             if !self.seen.contains(texel) {
                 return Ok(f32::INFINITY);
             }

@@ -31,7 +31,12 @@ impl Nearest {
         if self.refuses(depth) {
             return Err(Fault::new(name(), depth, self));
         }
-        Ok(if depth >= self.none { f32::INFINITY } else { depth })
+        Ok(self.seen(depth))
+    }
+
+    /// A depth that is not refused; +∞ where nothing was seen.
+    pub(crate) fn seen(self, depth: f32) -> f32 {
+        if depth >= self.none { f32::INFINITY } else { depth }
     }
 
     /// Whether a depth lies before the near plane.

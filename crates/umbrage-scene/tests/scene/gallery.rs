@@ -40,7 +40,9 @@ fn every_scene_is_sound() {
         let names: BTreeSet<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
         assert_eq!(names.len(), scene.objects.len(), "{name}: objects are found by name");
         for object in &scene.objects {
-            for view in scene.lights.iter().map(|light| &light.view).chain([&scene.camera]) {
+            // Only patches are cut otherwise for another view.
+            let views = if matches!(object.shape, Shape::Patches(_)) { scene.lights.len() } else { 0 };
+            for view in scene.lights[..views].iter().map(|light| &light.view).chain([&scene.camera]) {
                 let small = view.with_size(UVec2::splat(64)).expect("valid");
                 let mesh = object.shape.mesh_for(&small);
                 assert_eq!(mesh.check(), Ok(()), "{name}, {}", object.name);

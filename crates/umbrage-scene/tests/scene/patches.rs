@@ -171,13 +171,14 @@ fn boundary(mesh: &Mesh) -> Vec<[Vec3; 2]> {
     let bits = |at: Vec3| at.to_array().map(f32::to_bits);
     let mut edges: Vec<_> = (0..mesh.triangles.len())
         .flat_map(|triangle| {
-            let [a, b, c] = mesh.corners(triangle);
+            let [a, b, c] = mesh.corners(triangle).map(bits);
             [[a, b], [b, c], [c, a]]
         })
-        .map(|[a, b]| if bits(a) < bits(b) { [a, b] } else { [b, a] })
+        .map(|[a, b]| if a < b { [a, b] } else { [b, a] })
         .collect();
-    edges.sort_by_key(|edge| edge.map(bits));
-    edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1).map(|same| same[0]).collect()
+    edges.sort_unstable();
+    let alone = edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1).map(|same| same[0]);
+    alone.map(|edge| edge.map(|at| Vec3::from_array(at.map(f32::from_bits)))).collect()
 }
 
 /// The triangles of one surface.
