@@ -348,6 +348,10 @@ pub(crate) fn rounded(texel: f64) -> i32 {
 /// The least and the greatest coordinates.
 #[inline(always)]
 pub(crate) fn bounds(corners: &[IVec2]) -> (IVec2, IVec2) {
+    // Nearly all have three, for which no loop is needed.
+    if let [a, b, c] = *corners {
+        return (a.min(b).min(c), a.max(b).max(c));
+    }
     corners[1..].iter().fold((corners[0], corners[0]), |(low, high), corner| (low.min(*corner), high.max(*corner)))
 }
 

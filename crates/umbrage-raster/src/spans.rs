@@ -45,9 +45,6 @@ impl Grid {
 
 /// An edge from its end that is met first to the other, with the lines that cross it.
 struct Crossed {
-    /// The first line that crosses it and how many do.
-    first: i32,
-    count: i32,
     /// Where the first of them does: the least coordinate along the line that is not before the edge.
     at: i64,
     /// From line to line: quotient and remainder of the movement, over `height`.
@@ -57,34 +54,22 @@ struct Crossed {
 }
 
 impl Crossed {
-    /// The lines of a grid that cross the edge from `top` to `bottom`, both as (along, across).
+    /// The edge from `top` to `bottom`, both as (along, across), and those lines of a grid, one at least, that cross it: lines y with top ≤ y < bottom.
     #[inline(always)]
-    fn of(top: IVec2, bottom: IVec2, grid: Grid) -> Self {
-        // Lines y with top ≤ y < bottom.
-        let (from, to) = (grid.before(top.y), grid.before(bottom.y));
-        if from >= to {
-            return Self { first: from, count: 0, at: 0, step: (0, 0), remainder: 0, height: 1 };
-        }
+    fn of(top: IVec2, bottom: IVec2, grid: Grid, lines: Range<i32>) -> Self {
         let (dx, dy) = (i64::from(bottom.x - top.x), i64::from(bottom.y - top.y));
         // The crossing is before x while dy·(x − top.x) ≥ dx·(y − top.y): from ⌈dx·(y − top.y)/dy⌉ on.
-        let upward = dx * i64::from(grid.first + (from << grid.shift) - top.y) + dy - 1;
+        let upward = dx * i64::from(grid.first + (lines.start << grid.shift) - top.y) + dy - 1;
         let quotient = upward.div_euclid(dy);
         // One line needs no way to the next.
-        let step = if to - from > 1 {
+        let step = if lines.len() > 1 {
             let each = dx << grid.shift;
             let quotient = each.div_euclid(dy);
             (quotient, each - quotient * dy)
         } else {
             (0, 0)
         };
-        Self {
-            first: from,
-            count: to - from,
-            at: i64::from(top.x) + quotient,
-            remainder: upward - quotient * dy,
-            step,
-            height: dy,
-        }
+        Self { at: i64::from(top.x) + quotient, remainder: upward - quotient * dy, step, height: dy }
     }
 
     /// The crossing at the first of the lines that are left, which then is the next one.
@@ -176,13 +161,23 @@ impl Band<'_> {
         }
         match *self.gathered.outlines[shown.number as usize].corners {
             [a, b, c] => {
-                let mut corners = [lines.turned(a), lines.turned(b), lines.turned(c)];
-                corners.sort_unstable_by_key(|corner| corner.y);
-                let [top, middle, bottom] = corners;
-                let mut long = Crossed::of(top, bottom, grid);
-                for (top, bottom) in [(top, middle), (middle, bottom)] {
-                    let mut short = Crossed::of(top, bottom, grid);
-                    for line in short.first..short.first + short.count {
+                let sorted = |a: IVec2, b: IVec2| if a.y <= b.y { (a, b) } else { (b, a) };
+                let (a, b) = sorted(lines.turned(a), lines.turned(b));
+                let (b, c) = sorted(b, lines.turned(c));
+                let (a, b) = sorted(a, b);
+                let (top, bottom) = (grid.before(a.y), grid.before(c.y));
+                // Most of those that are smaller than a step cross no line.
+                if top == bottom {
+                    return;
+                }
+                let middle = grid.before(b.y);
+                let mut long = Crossed::of(a, c, grid, top..bottom);
+                for (ends, crossing) in [((a, b), top..middle), ((b, c), middle..bottom)] {
+                    if crossing.is_empty() {
+                        continue;
+                    }
+                    let mut short = Crossed::of(ends.0, ends.1, grid, crossing.clone());
+                    for line in crossing {
                         let (a, b) = (long.next(), short.next());
                         let (from, to) = (a.min(b).max(low), a.max(b).min(high));
                         if from < to {
@@ -195,8 +190,13 @@ impl Band<'_> {
                 let mut crossings = vec![Vec::new(); grid.count as usize];
                 for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
                     let (a, b) = (lines.turned(*a), lines.turned(*b));
-                    let mut edge = if a.y <= b.y { Crossed::of(a, b, grid) } else { Crossed::of(b, a, grid) };
-                    for line in edge.first..edge.first + edge.count {
+                    let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
+                    let lines = grid.before(a.y)..grid.before(b.y);
+                    if lines.is_empty() {
+                        continue;
+                    }
+                    let mut edge = Crossed::of(a, b, grid, lines.clone());
+                    for line in lines {
                         crossings[line as usize].push(edge.next());
                     }
                 }

@@ -48,14 +48,14 @@ pub(super) struct Spans {
 impl Spans {
     /// Makes them those of a region's lines, of which there are no more than `count`.
     #[inline(always)]
-    pub fn set(
+    pub fn set<'s>(
         &mut self,
         casters: &Casters<'_>,
         region: TexelRect,
         lines: Lines,
         step: i32,
         count: usize,
-        shown: &[Shown],
+        shown: impl IntoIterator<Item = &'s Shown>,
     ) {
         if self.lines.len() < count {
             self.lines.resize_with(count, Vec::new);

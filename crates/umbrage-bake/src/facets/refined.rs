@@ -131,13 +131,14 @@ impl Refined<'_> {
                 }
                 continue;
             }
-            rows.set(&casters, region, Lines::Rows, SUBTEXELS, PART, shown);
+            let at_centres = shown.iter().filter(|shown| holds_centre(casters.gathered.bounds(shown.number)));
+            rows.set(&casters, region, Lines::Rows, SUBTEXELS, PART, at_centres);
             let centres = Grid { first: min + SUBTEXELS / 2, step: SUBTEXELS, side: PART };
             centres.nearest(&casters, &planes, rows, own.min.x + SUBTEXELS / 2, put);
             if parts == Parts::Texels {
                 continue;
             }
-            rows.set(&casters, beyond, Lines::Rows, step, side, shown);
+            rows.set(&casters, beyond, Lines::Rows, step, side, &*shown);
             let grid = Grid { first: min + step / 2, step, side };
             let from = if crowded { own.min.x + step / 2 } else { grid.first.x };
             grid.nearest(&casters, &planes, rows, from, |y, facets| {
@@ -147,7 +148,7 @@ impl Refined<'_> {
             let refine = Refine { surface: &surface, samples, grid, texels: &texels, origin, first, fine };
             refine.part(&mut blocks);
             if blocks.len() > before {
-                columns.set(&casters, beyond, Lines::Columns, step, side, shown);
+                columns.set(&casters, beyond, Lines::Columns, step, side, &*shown);
                 let slots = refinement.slots as i32;
                 let links = Links {
                     casters: &casters,
@@ -166,6 +167,14 @@ impl Refined<'_> {
         let nothing = blocks.is_empty() && texels.iter().all(|facet| *facet == NO_FACET);
         (!nothing).then_some(Found { planes, texels, blocks })
     }
+}
+
+/// Whether the centre of a texel lies between the least and the greatest coordinates of a facet, in 1/256 texel. Of facets that are smaller than texels,
+/// few are at any.
+#[inline(always)]
+fn holds_centre((low, high): (IVec2, IVec2)) -> bool {
+    let before = |at: IVec2| (at + (SUBTEXELS / 2 - 1)) >> SUBTEXELS.ilog2();
+    before(low).cmplt(before(high)).all()
 }
 
 /// A part's samples, and its tile's texels.
@@ -197,6 +206,13 @@ impl Refine<'_> {
             let own = self.texels[texel];
             let first = within.as_usizevec2() * fine;
             let row = |y: usize, count: usize| &self.samples[(first.y + y) * columns + first.x..][..count];
+            // The texel's samples, and the first beyond its right and lower side. Most texels see one facet: all samples are compared
+            // at once, without a branch for each.
+            let around = fine + 1;
+            let differing = |y: usize| row(y, around).iter().fold(0, |differing, seen| differing | (seen ^ own));
+            if (0..around).fold(0, |all, y| all | differing(y)) == 0 {
+                continue;
+            }
             let mut width = None;
             let mut agrees = |x: usize, y: usize, seen: u32| {
                 let place = grid.place([first.x + x, first.y + y]);
@@ -204,8 +220,6 @@ impl Refine<'_> {
                 let on_map = place.cmplt(map.as_ivec2() * SUBTEXELS).all();
                 !on_map || self.surface.agree(own, seen, texels(place), &mut width)
             };
-            // The texel's samples, and the first beyond its right and lower side.
-            let around = fine + 1;
             let mut is_flat = true;
             for y in 0..around {
                 for (x, &seen) in row(y, around).iter().enumerate() {
