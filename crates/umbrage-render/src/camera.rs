@@ -94,7 +94,7 @@ impl Gather<'_> {
             });
         });
         if !facets.is_empty() {
-            // What samples have in common does not matter where each is a region by itself.
+            // Where each sample is a region by itself, samples need not be grouped by what they share.
             let surface = |facet| Surface::of(self.soup, facet);
             let surfaces = if self.every_sample { Vec::new() } else { facets.iter().map(surface).collect() };
             let tile = Tile { origin, samples, facets, surfaces };

@@ -18,7 +18,7 @@ use umbrage_sample::{Density, Spiral, Taps, Vogel};
 ///   blocker there is light.
 /// * The radius of a lamp's disc was fitted to ray tracing. It is a fraction of the map: a polynomial of the lamp's radius times a polynomial of the blockers'
 ///   distance, together at most 0.32, times 1 − d̄/d of reversed screen depths, which is Burley's factor times f/(f − z̄). It is at least 0.41 texels. The
-///   radius of the search is the first polynomial alone. Blockers are averaged by screen depth, which gives near ones more weight. There is no cone.
+///   radius of the search uses the first polynomial alone. The blockers' mean is taken over screen depths, in which near blockers weigh more. There is no cone.
 ///
 /// What is open there, or left out: (1) discs are turned by interleaved gradient noise of the pixel and the frame, here by the key of the region, and both discs
 /// alike, as there; (2) the radius of parallel light is that of depths from 0 to 1, as Direct3D, Metal and Vulkan have them; it is as wide as the whole penumbra
