@@ -16,7 +16,6 @@ pub struct Gathered<'a> {
 /// Where a piece may be.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outline<'a> {
-    number: u32,
     piece: &'a Piece,
     pub corners: &'a [IVec2],
     /// The least and the greatest coordinates of its corners, in 1/256 texel.
@@ -28,6 +27,11 @@ impl Outline<'_> {
     #[inline(always)]
     fn touches(&self, region: TexelRect) -> bool {
         self.low.cmplt(region.max).all() && self.high.cmpge(region.min).all()
+    }
+
+    #[inline(always)]
+    fn is_inside(&self, region: TexelRect) -> bool {
+        self.low.cmpge(region.min).all() && self.high.cmple(region.max).all()
     }
 }
 
@@ -45,18 +49,28 @@ impl Bins {
     pub fn gathered(&self, region: TexelRect) -> Gathered<'_> {
         let side = BIN as i32 * SUBTEXELS;
         let (from, to) = (region.min.max(IVec2::ZERO) / side, (region.max - 1).div_euclid(IVec2::splat(side)));
-        let mut outlines = Vec::new();
-        for tile in TexelRect::new(from, to + 1).texels() {
-            outlines.extend(self.list(tile.as_uvec2()).iter().filter_map(|&number| {
-                let (piece, corners) = self.piece(number);
-                let (low, high) = bounds(corners);
-                let outline = Outline { number, piece, corners, low, high };
-                outline.touches(region).then_some(outline)
-            }));
+        let outline = |number: u32| {
+            let (piece, corners) = self.piece(number);
+            let (low, high) = bounds(corners);
+            let outline = Outline { piece, corners, low, high };
+            outline.touches(region).then_some(outline)
+        };
+        let tiles = TexelRect::new(from, to + 1);
+        // Of a tile that lies in the region almost all reaches it; of one beside it almost nothing.
+        let is_whole =
+            |tile: IVec2| (tile * side).cmpge(region.min).all() && ((tile + 1) * side).cmple(region.max).all();
+        let mut numbers: Vec<u32> = Vec::new();
+        for tile in tiles.texels() {
+            let list = self.list(tile.as_uvec2());
+            if is_whole(tile) {
+                numbers.extend_from_slice(list);
+            } else {
+                numbers.extend(list.iter().filter(|number| outline(**number).is_some()));
+            }
         }
-        // The lists are sorted, and a stable sort merges what is.
-        outlines.sort_by_key(|outline| outline.number);
-        outlines.dedup_by_key(|outline| outline.number);
+        merge(&mut numbers);
+        let mut outlines = Vec::with_capacity(numbers.len());
+        outlines.extend(numbers.into_iter().filter_map(outline));
         Gathered { bins: self, outlines }
     }
 }
@@ -112,7 +126,11 @@ impl Gathered<'_> {
             if !outline.touches(part) {
                 continue;
             }
-            let Some(covers) = reaches(outline.corners, part) else { continue };
+            // One that lies wholly in the part reaches it, and cannot cover it.
+            let Some(covers) = (if outline.is_inside(part) { Some(false) } else { reaches(outline.corners, part) })
+            else {
+                continue;
+            };
             if covers {
                 let facet = outline.piece.facet();
                 let keys = corners.map(|corner| facet.plane.at(corner));
@@ -132,6 +150,13 @@ impl Gathered<'_> {
             });
         }
     }
+}
+
+/// Sorts a few sorted lists that follow one another, and leaves out what stands in several.
+fn merge(numbers: &mut Vec<u32>) {
+    #[expect(clippy::stable_sort_primitive, reason = "a stable sort merges what is sorted")]
+    numbers.sort();
+    numbers.dedup();
 }
 
 /// More than what a plane's keys may be off by roundings, however they are computed, at places from the map's upper left corner to `most`, in texels.

@@ -114,9 +114,8 @@ impl Bins {
         for number in 0..gathered.len() as u32 {
             let facet = gathered.facet(number);
             let shown = Shown { number, covers: false };
-            band.covered(shown, |line, along| {
-                sink(&facet, band.grid.first + ((line as i32) << band.grid.shift), along);
-            });
+            let place = |line: usize| band.grid.first + ((line as i32) << band.grid.shift);
+            band.covered(shown, |_| true, |line, along| sink(&facet, place(line), along));
         }
     }
 }
@@ -149,13 +148,16 @@ impl<'a> Gathered<'a> {
 
 impl Band<'_> {
     /// Calls `sink` with what a facet covers of the lines, in their order: the number of a line, 0-based, and the half-open interval of coordinates
-    /// along it, in 1/256 texel. Of a facet of which it is not known that it covers the region, `covers` is false.
+    /// along it, in 1/256 texel. Of a facet of which it is not known that it covers the region, `covers` is false. Lines of which `wants` says that
+    /// none is wanted are left out.
     #[inline(always)]
-    pub fn covered(&self, shown: Shown, mut sink: impl FnMut(usize, Range<i32>)) {
+    pub fn covered(&self, shown: Shown, wants: impl Fn(Range<usize>) -> bool, mut sink: impl FnMut(usize, Range<i32>)) {
         let Self { lines, grid, low, high, .. } = *self;
         if shown.covers {
             for line in 0..grid.count as usize {
-                sink(line, low..high);
+                if wants(line..line + 1) {
+                    sink(line, low..high);
+                }
             }
             return;
         }
@@ -167,7 +169,7 @@ impl Band<'_> {
                 let (a, b) = sorted(a, b);
                 let (top, bottom) = (grid.before(a.y), grid.before(c.y));
                 // Most of those that are smaller than a step cross no line.
-                if top == bottom {
+                if top == bottom || !wants(top as usize..bottom as usize) {
                     return;
                 }
                 let middle = grid.before(b.y);
@@ -180,8 +182,9 @@ impl Band<'_> {
                     for line in crossing {
                         let (a, b) = (long.next(), short.next());
                         let (from, to) = (a.min(b).max(low), a.max(b).min(high));
-                        if from < to {
-                            sink(line as usize, from..to);
+                        let line = line as usize;
+                        if from < to && wants(line..line + 1) {
+                            sink(line, from..to);
                         }
                     }
                 }
@@ -200,11 +203,11 @@ impl Band<'_> {
                         crossings[line as usize].push(edge.next());
                     }
                 }
-                for (line, mut crossed) in (0..).zip(crossings) {
+                for (line, mut crossed) in crossings.into_iter().enumerate() {
                     crossed.sort_unstable();
                     for [from, to] in crossed.as_chunks().0 {
                         let (from, to) = ((*from).max(low), (*to).min(high));
-                        if from < to {
+                        if from < to && wants(line..line + 1) {
                             sink(line, from..to);
                         }
                     }

@@ -44,7 +44,7 @@ const RULES: &[Rule] = &[
     Rule {
         package: "umbrage-bake",
         arrows: &["umbrage-raster", "umbrage-depth"],
-        outside: &["glam", "rayon"],
+        outside: &["fearless_simd", "glam", "rayon"],
         tests: PROPERTIES,
     },
     Rule {

@@ -2,7 +2,7 @@
 
 use crate::masks::Masks;
 use glam::DVec2;
-use umbrage_plane::{Facet, TexelRect};
+use umbrage_plane::TexelRect;
 use umbrage_raster::{Gathered, Shown};
 
 /// The facets that may reach a tile, and where they have holes.
@@ -25,9 +25,24 @@ impl Casters<'_> {
         }
     }
 
-    /// Whether a facet has no hole at a place of the map, in texels.
+    /// Of some places, a bit for each, those where a facet has no hole; `place` gives them in texels of the map.
     #[cold]
-    pub fn is_there(&self, facet: &Facet, at: DVec2) -> bool {
-        self.masks.of(facet).is_none_or(|masked| self.masks.is_there(masked, facet, at))
+    pub fn there(&self, number: u32, among: u64, place: impl Fn(usize) -> DVec2) -> u64 {
+        let facet = self.gathered.facet(number);
+        let Some(masked) = self.masks.of(&facet) else { return among };
+        bits(among).filter(|bit| self.masks.is_there(masked, &facet, place(*bit))).map(|bit| 1 << bit).sum()
     }
+}
+
+/// The numbers of the bits that are set, ascending.
+#[inline(always)]
+pub(super) fn bits(mut set: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(
+        #[inline(always)]
+        move || {
+            let next = (set != 0).then_some(set.trailing_zeros() as usize);
+            set &= set.wrapping_sub(1);
+            next
+        },
+    )
 }

@@ -1,125 +1,233 @@
 //! Where the first surface changes between neighbouring samples.
 
-use super::casters::Casters;
-use super::nearest::{Grid, SUBTEXELS, Spans, place_of, points, texels};
+use super::casters::{Casters, bits};
+use super::nearest::{Grid, LANES, SUBTEXELS, Spans, numbers, place_of, texels};
 use super::surface::Surface;
-use glam::IVec2;
+use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4};
+use glam::{IVec2, USizeVec2};
+use std::ops::Range;
 use umbrage_depth::FacetBlock;
+use umbrage_plane::Affine;
 use umbrage_raster::{BIN, Lines};
 
 /// The samples of a part, and what is seen on the links between them.
-pub(super) struct Links<'a> {
+pub(super) struct Links<'a, S> {
+    pub simd: S,
     pub casters: &'a Casters<'a>,
     pub surface: &'a Surface<'a>,
     pub samples: &'a [u32],
     pub grid: Grid,
     /// The part's first texel in the tile.
     pub first: IVec2,
-    /// The coverage of the part's rows and columns.
-    pub spans: [&'a Spans; 2],
     pub slots: i32,
     /// Samples along a texel's side.
     pub fine: usize,
 }
 
-impl Links<'_> {
-    /// Finds the links of blocks.
+/// Most samples along a side of a part.
+const MOST: usize = 64;
+
+/// Which links are stored: for each row and each column of samples, a bit for the link of each of its samples to the next.
+pub(super) struct Stored([[u64; MOST]; 2]);
+
+impl Stored {
+    /// Whether any link of some lines is stored.
+    pub fn any(&self, lines: Lines, among: Range<usize>) -> bool {
+        self.0[usize::from(lines == Lines::Columns)].iter().take(among.end).skip(among.start).any(|line| *line != 0)
+    }
+}
+
+/// The slots of the links of a part that see their sample's surface before another one is seen: for each row and each column, one number for each sample.
+type Leading = [[[u8; MOST]; MOST]; 2];
+
+impl<S: Simd> Links<'_, S> {
+    /// A block's first sample among those of the part.
     #[inline(always)]
-    pub fn fill(&self, blocks: &mut [FacetBlock]) {
-        let fine = self.fine;
+    fn corner(&self, block: &FacetBlock) -> USizeVec2 {
+        (place_of(usize::from(block.texel), BIN as usize) - self.first).as_usizevec2() * self.fine
+    }
+
+    /// The links of blocks that are stored.
+    #[inline(always)]
+    pub fn stored(&self, blocks: &[FacetBlock]) -> Stored {
+        let mut stored = [[0; MOST]; 2];
+        for block in blocks {
+            let corner = self.corner(block);
+            for y in corner.y..corner.y + self.fine {
+                for x in corner.x..corner.x + self.fine {
+                    stored[0][y] |= u64::from(self.is_stored(Lines::Rows, [x, y])) << x;
+                    stored[1][x] |= u64::from(self.is_stored(Lines::Columns, [x, y])) << y;
+                }
+            }
+        }
+        Stored(stored)
+    }
+
+    /// What the sample at the start of a link and that at its end see.
+    #[inline(always)]
+    fn ends(&self, lines: Lines, [x, y]: [usize; 2]) -> [u32; 2] {
+        let sample = y * self.grid.side + x;
+        let next = sample + if lines == Lines::Rows { 1 } else { self.grid.side };
+        [self.samples[sample], self.samples[next]]
+    }
+
+    /// Whether the link of a sample to the next one is stored: both are on the map, and their planes do not meet there.
+    #[inline(always)]
+    fn is_stored(&self, lines: Lines, sample: [usize; 2]) -> bool {
+        let [a, b] = self.ends(lines, sample);
+        if a == b {
+            return false;
+        }
+        let start = self.grid.place(sample);
+        let end = start + toward(lines) * self.grid.step;
+        let map = self.surface.view.size().as_ivec2() * SUBTEXELS;
+        end.cmplt(map).all() && !self.surface.meet(a, b, [start, end].map(texels))
+    }
+
+    /// Fills the links of blocks, of which these are stored; `spans` are the coverage of the part's rows and of those of its columns that have any.
+    #[inline(always)]
+    pub fn fill(&self, blocks: &mut [FacetBlock], stored: &Stored, spans: [&Spans; 2]) {
+        let mut leading = [[[0; MOST]; MOST]; 2];
+        match self.slots {
+            // The number of vectors must be known where this is compiled; slots beyond the last are never read.
+            ..=16 => self.find::<4>(stored, spans, &mut leading),
+            _ => self.find::<8>(stored, spans, &mut leading),
+        }
         let mut found = Vec::new();
         for block in blocks {
             found.clear();
-            let corner = (place_of(usize::from(block.texel), BIN as usize) - self.first).as_usizevec2() * fine;
-            for number in 0..fine * fine {
-                let sample = [corner.x + number % fine, corner.y + number / fine];
+            let corner = self.corner(block);
+            for number in 0..self.fine * self.fine {
+                let (x, y) = (corner.x + number % self.fine, corner.y + number / self.fine);
                 let number = 2 * number as u16;
-                found.extend(self.link(Lines::Rows, sample).map(|slots| (number, slots)));
-                found.extend(self.link(Lines::Columns, sample).map(|slots| (number + 1, slots)));
+                if stored.0[0][y] >> x & 1 == 1 {
+                    found.push((number, leading[0][y][x]));
+                }
+                if stored.0[1][x] >> y & 1 == 1 {
+                    found.push((number + 1, leading[1][x][y]));
+                }
             }
             block.links = found.as_slice().to_vec();
         }
     }
 
-    /// The link of a sample to the next one, where it is stored: both are on the map, and their planes do not meet there.
+    /// Line by line: that of a link would be searched again for each.
     #[inline(always)]
-    fn link(&self, lines: Lines, [x, y]: [usize; 2]) -> Option<u8> {
-        let grid = self.grid;
-        let sample = y * grid.side + x;
-        let (next, beyond) =
-            if lines == Lines::Rows { ([x + 1, y], sample + 1) } else { ([x, y + 1], sample + grid.side) };
-        let [a, b] = [self.samples[sample], self.samples[beyond]];
-        if a == b {
-            return None;
-        }
-        let ends = [grid.place([x, y]), grid.place(next)];
-        let map = self.surface.view.size().as_ivec2() * SUBTEXELS;
-        if ends[1].cmpge(map).any() || self.surface.meet(a, b, ends.map(texels)) {
-            return None;
-        }
-        Some(self.leading(lines, [a, b], ends[0]))
-    }
-
-    /// How many slots of the link of a sample to the next, but not all, see the sample's surface before another one is seen.
-    #[inline(always)]
-    fn leading(&self, lines: Lines, [a, b]: [u32; 2], sample: IVec2) -> u8 {
-        let mut keys = [f64::INFINITY; MOST_SLOTS];
-        let keys = &mut keys[..self.slots as usize];
-        self.nearest(lines, sample, keys);
-        let (a, b) = (self.surface.plane(a), self.surface.plane(b));
-        let gap = self.grid.step / self.slots;
-        let toward = if lines == Lines::Rows { IVec2::X } else { IVec2::Y };
-        let first = sample + toward * (gap / 2);
-        let off = |own: f64, key: f64| if own == key { 0.0 } else { (own - key).abs() };
-        // One bit for each slot, and no end before the last, so that several are compared at a time.
-        let mut own: u32 = 0;
-        for (slot, key) in (0..).zip(&*keys) {
-            let at = texels(first + toward * (gap * slot));
-            own |= u32::from(off(a.at(at), *key) <= off(b.at(at), *key)) << slot;
-        }
-        let leading = own.trailing_ones() as u8;
-        leading.min(keys.len() as u8 - 1)
-    }
-
-    /// The nearest keys at the slots of the link from a sample to the next.
-    #[inline(always)]
-    fn nearest(&self, lines: Lines, sample: IVec2, keys: &mut [f64]) {
-        let Grid { first, step, .. } = self.grid;
-        let turned = |at: IVec2| if lines == Lines::Rows { at } else { IVec2::new(at.y, at.x) };
-        let (begin, across) = turned(sample).into();
-        let line = (across - turned(first).y) / step;
-        let gap = step / self.slots;
-        let start = begin + gap / 2;
-        let place = |slot: i32| texels(turned(IVec2::new(start + gap * slot, across)));
-        for span in self.spans[usize::from(lines == Lines::Columns)].line(line as usize) {
-            if span.along.start >= begin + step || span.along.end <= begin {
-                continue;
-            }
-            let covered = points(&span.along, start, gap.ilog2(), keys.len());
-            if covered.is_empty() {
-                continue;
-            }
-            let plane = self.surface.plane(span.facet);
-            let key = plane.at(place(0));
-            let change = plane.at(place(1)) - key;
-            let slots = (covered.start as i32..).zip(&mut keys[covered]);
-            if span.masked {
-                let facet = self.casters.gathered.facet(span.facet);
-                for (slot, nearest) in slots {
-                    let key = key + change * f64::from(slot);
-                    if key < *nearest && self.casters.is_there(&facet, place(slot)) {
-                        *nearest = key;
-                    }
+    fn find<const N: usize>(&self, stored: &Stored, spans: [&Spans; 2], leading: &mut Leading) {
+        let mut keys = [[f64x4::splat(self.simd, 0.0); N]; MOST];
+        let directions = [Lines::Rows, Lines::Columns].into_iter().zip(spans).zip(stored.0.iter().zip(leading));
+        for ((lines, spans), (stored, leading)) in directions {
+            for (line, (stored, leading)) in stored.iter().zip(leading).enumerate() {
+                if *stored != 0 {
+                    self.nearest(lines, line, *stored, spans, &mut keys);
+                    self.leading(lines, line, *stored, &keys, leading);
                 }
+            }
+        }
+    }
+
+    /// The first slot of the first link of a line.
+    #[inline(always)]
+    fn first_slot(&self, lines: Lines, line: usize) -> IVec2 {
+        let sample = if lines == Lines::Rows { [0, line] } else { [line, 0] };
+        self.grid.place(sample) + toward(lines) * (self.gap() / 2)
+    }
+
+    /// From slot to slot, in 1/256 texel.
+    #[inline(always)]
+    fn gap(&self) -> i32 {
+        self.grid.step / self.slots
+    }
+
+    /// The nearest keys at the slots of a line's links.
+    #[inline(always)]
+    fn nearest<const N: usize>(
+        &self,
+        lines: Lines,
+        line: usize,
+        stored: u64,
+        spans: &Spans,
+        keys: &mut [[f64x4<S>; N]; MOST],
+    ) {
+        let (simd, gap, step) = (self.simd, self.gap(), self.grid.step);
+        let toward = toward(lines);
+        let start = self.grid.first.dot(toward);
+        for link in bits(stored) {
+            keys[link] = [f64x4::splat(simd, f64::INFINITY); N];
+        }
+        for span in spans.line(line) {
+            // Those that begin before its end and end after its start.
+            let (from, to) = (span.along.start - start, span.along.end - start + step - 1);
+            let (from, to) = ((from >> step.ilog2()).max(0), to >> step.ilog2());
+            let before = |link: i32| if link < MOST as i32 { (1 << link) - 1 } else { u64::MAX };
+            let reached = stored & before(to) & !before(from);
+            if reached == 0 {
                 continue;
             }
-            for (slot, nearest) in slots {
-                let key = key + change * f64::from(slot);
-                *nearest = if key < *nearest { key } else { *nearest };
+            let plane = self.surface.planes[span.facet as usize];
+            let (from, to) = (f64x4::splat(simd, span.along.start.into()), f64x4::splat(simd, span.along.end.into()));
+            for link in bits(reached) {
+                let first = self.first_slot(lines, line) + toward * (step * link as i32);
+                let key = plane.at(texels(first));
+                let change = plane.at(texels(first + toward * gap)) - key;
+                let along = f64x4::splat(simd, first.dot(toward).into());
+                for (vector, nearest) in keys[link].iter_mut().enumerate() {
+                    let slot = numbers(simd) + f64x4::splat(simd, (LANES * vector) as f64);
+                    let key = change * slot + key;
+                    let along = along + slot * f64x4::splat(simd, gap.into());
+                    let mut is_nearer = key.simd_lt(*nearest) & along.simd_ge(from) & along.simd_lt(to);
+                    if span.masked {
+                        let place = |lane: usize| texels(first + toward * (gap * (LANES * vector + lane) as i32));
+                        let there = self.casters.there(span.facet, is_nearer.to_bitmask(), place);
+                        is_nearer = SimdMask::from_bitmask(simd, there);
+                    }
+                    *nearest = is_nearer.select(key, *nearest);
+                }
             }
+        }
+    }
+
+    /// Of each of a line's links how many slots, but not all, see the sample's surface before another one is seen.
+    #[inline(always)]
+    fn leading<const N: usize>(
+        &self,
+        lines: Lines,
+        line: usize,
+        stored: u64,
+        keys: &[[f64x4<S>; N]; MOST],
+        leading: &mut [u8; MOST],
+    ) {
+        let simd = self.simd;
+        let toward = toward(lines);
+        let change = texels(toward * self.gap());
+        let (dx, dy) = (f64x4::splat(simd, change.x), f64x4::splat(simd, change.y));
+        for link in bits(stored) {
+            let [a, b] = self.ends(lines, if lines == Lines::Rows { [link, line] } else { [line, link] });
+            let (a, b) = (self.surface.plane(a), self.surface.plane(b));
+            let first = texels(self.first_slot(lines, line) + toward * (self.grid.step * link as i32));
+            let (x, y) = (f64x4::splat(simd, first.x), f64x4::splat(simd, first.y));
+            let mut own: u32 = 0;
+            for (vector, keys) in keys[link].iter().enumerate() {
+                let slot = numbers(simd) + f64x4::splat(simd, (LANES * vector) as f64);
+                // Places are multiples of 1/256 texel: nothing is rounded.
+                let at = [x + dx * slot, y + dy * slot];
+                let is_own = off(simd, a, at, *keys).simd_le(off(simd, b, at, *keys));
+                own |= (is_own.to_bitmask() as u32) << (LANES * vector);
+            }
+            leading[link] = own.trailing_ones().min(self.slots as u32 - 1) as u8;
         }
     }
 }
 
-/// Most slots of a link.
-const MOST_SLOTS: usize = 32;
+/// The direction of lines.
+#[inline(always)]
+fn toward(lines: Lines) -> IVec2 {
+    if lines == Lines::Rows { IVec2::X } else { IVec2::Y }
+}
+
+/// How far keys are off a plane at some places; two that are infinite are equal.
+#[inline(always)]
+fn off<S: Simd>(simd: S, plane: Affine, [x, y]: [f64x4<S>; 2], keys: f64x4<S>) -> f64x4<S> {
+    let own = (plane.dy * y + plane.c) + plane.dx * x;
+    own.simd_eq(keys).select(f64x4::splat(simd, 0.0), (own - keys).abs())
+}

@@ -1,11 +1,12 @@
 //! The nearest facets at the points of a grid.
 
 use super::casters::Casters;
+use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4};
 use glam::{DVec2, IVec2};
 use std::ops::Range;
 use umbrage_depth::NO_FACET;
-use umbrage_plane::{Affine, TexelRect};
-use umbrage_raster::{Lines, Shown};
+use umbrage_plane::Affine;
+use umbrage_raster::{Band, Shown};
 
 /// 1/256 texel: corners are snapped to multiples of it, as are all places here.
 pub(super) const SUBTEXELS: i32 = 256;
@@ -46,27 +47,27 @@ pub(super) struct Spans {
 }
 
 impl Spans {
-    /// Makes them those of a region's lines, of which there are no more than `count`.
+    /// Makes them those of a region's lines, of which there are no more than `count`; of no lines when there is no band. Lines of which `wants` says that none is wanted stay empty.
     #[inline(always)]
     pub fn set<'s>(
         &mut self,
         casters: &Casters<'_>,
-        region: TexelRect,
-        lines: Lines,
-        step: i32,
+        band: Option<Band<'_>>,
         count: usize,
+        wants: impl Fn(Range<usize>) -> bool,
         shown: impl IntoIterator<Item = &'s Shown>,
     ) {
         if self.lines.len() < count {
             self.lines.resize_with(count, Vec::new);
         }
         self.lines[..count].iter_mut().for_each(Vec::clear);
-        let Some(band) = casters.gathered.band(region, lines, step) else { return };
+        let Some(band) = band else { return };
         for shown in shown {
             let facet = shown.number;
             let masked = casters.masks.of(&casters.gathered.facet(facet)).is_some();
             band.covered(
                 *shown,
+                &wants,
                 #[inline(always)]
                 |line, along| self.lines[line].push(Span { facet, masked, along }),
             );
@@ -97,8 +98,9 @@ impl Grid {
     /// Calls `row` with the nearest facets at the points of each row, as `spans` has the rows; [`NO_FACET`] where there is none. Keys are those at
     /// `from`, a coordinate along the rows, and what they change by to a point.
     #[inline(always)]
-    pub fn nearest(
+    pub fn nearest<S: Simd>(
         self,
+        simd: S,
         casters: &Casters<'_>,
         planes: &[Affine],
         spans: &Spans,
@@ -107,42 +109,56 @@ impl Grid {
     ) {
         let Self { first, step, side } = self;
         let (shift, before) = (step.ilog2(), (first.x - from) / step);
-        let mut keys = [0.0; MOST_POINTS];
-        let mut facets = [NO_FACET; MOST_POINTS];
-        let (keys, facets) = (&mut keys[..side], &mut facets[..side]);
+        let vectors = side.div_ceil(LANES);
+        let mut keys = [f64x4::splat(simd, 0.0); MOST_POINTS / LANES];
+        let mut facets = keys;
+        let (keys, facets) = (&mut keys[..vectors], &mut facets[..vectors]);
+        let mut seen = [NO_FACET; MOST_POINTS];
         for y in 0..side {
             let at = IVec2::new(from, first.y + step * y as i32);
-            keys.fill(f64::INFINITY);
-            facets.fill(NO_FACET);
+            keys.fill(f64x4::splat(simd, f64::INFINITY));
+            facets.fill(f64x4::splat(simd, NO_FACET.into()));
             for Span { facet, masked, along } in spans.line(y) {
                 let covered = points(along, first.x, shift, side);
                 let plane = planes[*facet as usize];
                 let key = plane.at(texels(at));
                 let dx = plane.dx * (f64::from(step) / f64::from(SUBTEXELS));
-                // Signed 32-bit counters become floats several at a time.
-                let counted = before + covered.start as i32..;
-                let points = counted.zip(keys[covered.clone()].iter_mut().zip(&mut facets[covered]));
-                if *masked {
-                    let whole = casters.gathered.facet(*facet);
-                    for (i, (nearest, own)) in points {
-                        let key = key + dx * f64::from(i);
-                        if key < *nearest && casters.is_there(&whole, texels(at + IVec2::X * (step * i))) {
-                            (*nearest, *own) = (key, *facet);
-                        }
+                let (begin, end) = (f64x4::splat(simd, covered.start as f64), f64x4::splat(simd, covered.end as f64));
+                // Numbers of 32 bits are exact as floats, and chosen by the same masks as keys.
+                let own = f64x4::splat(simd, f64::from(*facet));
+                for vector in covered.start / LANES..covered.end.div_ceil(LANES) {
+                    let point = numbers(simd) + f64x4::splat(simd, (LANES * vector) as f64);
+                    let key = dx * (point + f64x4::splat(simd, before.into())) + key;
+                    let mut is_nearer = key.simd_lt(keys[vector]) & point.simd_ge(begin) & point.simd_lt(end);
+                    if *masked {
+                        let first = before + (LANES * vector) as i32;
+                        let place = |lane: usize| texels(at + IVec2::X * (step * (first + lane as i32)));
+                        let there = casters.there(*facet, is_nearer.to_bitmask(), place);
+                        is_nearer = SimdMask::from_bitmask(simd, there);
                     }
-                    continue;
-                }
-                for (i, (nearest, own)) in points {
-                    let key = key + dx * f64::from(i);
-                    let nearer = key < *nearest;
-                    *nearest = if nearer { key } else { *nearest };
-                    *own = if nearer { *facet } else { *own };
+                    keys[vector] = is_nearer.select(key, keys[vector]);
+                    facets[vector] = is_nearer.select(own, facets[vector]);
                 }
             }
-            row(y, facets);
+            for (seen, facets) in seen.as_chunks_mut::<LANES>().0.iter_mut().zip(&*facets) {
+                let facets: [f64; LANES] = (*facets).into();
+                for lane in 0..LANES {
+                    seen[lane] = facets[lane] as u32;
+                }
+            }
+            row(y, &seen[..side]);
         }
     }
 }
 
-/// Most points of a row.
-const MOST_POINTS: usize = 65;
+/// Room for the points of a row, 65 at most, in whole vectors.
+const MOST_POINTS: usize = 68;
+
+/// Numbers of a vector.
+pub(super) const LANES: usize = 4;
+
+/// 0, 1, 2, 3.
+#[inline(always)]
+pub(super) fn numbers<S: Simd>(simd: S) -> f64x4<S> {
+    f64x4::from_slice(simd, &[0.0, 1.0, 2.0, 3.0])
+}

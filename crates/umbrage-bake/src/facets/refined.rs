@@ -6,7 +6,9 @@ use super::nearest::{Grid, SUBTEXELS, Spans, place_of, texels};
 use super::refinement::Refinement;
 use super::surface::Surface;
 use crate::masks::Masks;
+use fearless_simd::Simd;
 use glam::{IVec2, UVec2};
+use std::ops::Range;
 use umbrage_depth::{FacetBlock, FacetCells, NO_FACET};
 use umbrage_plane::{Affine, TexelRect, View, vectorized};
 use umbrage_raster::{BIN, Bins, Lines, Shown};
@@ -70,11 +72,11 @@ impl Refined<'_> {
         if self.bins.is_empty_tile(tile) {
             return None;
         }
-        vectorized!(_ => self.found(tile, parts, scratch))
+        vectorized!(simd => self.found(simd, tile, parts, scratch))
     }
 
     #[inline(always)]
-    fn found(&self, tile: UVec2, parts: Parts, scratch: &mut Scratch) -> Option<Found> {
+    fn found<S: Simd>(&self, simd: S, tile: UVec2, parts: Parts, scratch: &mut Scratch) -> Option<Found> {
         let Self { view, bins, masks, refinement } = *self;
         let origin = (tile * BIN).as_ivec2();
         let own = TexelRect::new(origin * SUBTEXELS, (origin + BIN as i32) * SUBTEXELS);
@@ -132,35 +134,30 @@ impl Refined<'_> {
                 continue;
             }
             let at_centres = shown.iter().filter(|shown| holds_centre(casters.gathered.bounds(shown.number)));
-            rows.set(&casters, region, Lines::Rows, SUBTEXELS, PART, at_centres);
+            let band = casters.gathered.band(region, Lines::Rows, SUBTEXELS);
+            rows.set(&casters, band, PART, |_| true, at_centres);
             let centres = Grid { first: min + SUBTEXELS / 2, step: SUBTEXELS, side: PART };
-            centres.nearest(&casters, &planes, rows, own.min.x + SUBTEXELS / 2, put);
+            centres.nearest(simd, &casters, &planes, rows, own.min.x + SUBTEXELS / 2, put);
             if parts == Parts::Texels {
                 continue;
             }
-            rows.set(&casters, beyond, Lines::Rows, step, side, &*shown);
+            let band = |lines| casters.gathered.band(beyond, lines, step);
+            rows.set(&casters, band(Lines::Rows), side, |_| true, &*shown);
             let grid = Grid { first: min + step / 2, step, side };
             let from = if crowded { own.min.x + step / 2 } else { grid.first.x };
-            grid.nearest(&casters, &planes, rows, from, |y, facets| {
+            grid.nearest(simd, &casters, &planes, rows, from, |y, facets| {
                 samples[y * side..][..side].copy_from_slice(facets);
             });
             let before = blocks.len();
             let refine = Refine { surface: &surface, samples, grid, texels: &texels, origin, first, fine };
             refine.part(&mut blocks);
             if blocks.len() > before {
-                columns.set(&casters, beyond, Lines::Columns, step, side, &*shown);
                 let slots = refinement.slots as i32;
-                let links = Links {
-                    casters: &casters,
-                    surface: &surface,
-                    samples,
-                    grid,
-                    first,
-                    spans: [rows, columns],
-                    slots,
-                    fine,
-                };
-                links.fill(&mut blocks[before..]);
+                let links = Links { simd, casters: &casters, surface: &surface, samples, grid, first, slots, fine };
+                let stored = links.stored(&blocks[before..]);
+                let wants = |lines: Range<usize>| stored.any(Lines::Columns, lines);
+                columns.set(&casters, band(Lines::Columns), side, wants, &*shown);
+                links.fill(&mut blocks[before..], &stored, [rows, columns]);
             }
         }
         blocks.sort_unstable_by_key(|block: &FacetBlock| block.texel);

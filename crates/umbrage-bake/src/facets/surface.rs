@@ -33,6 +33,7 @@ impl Surface<'_> {
     }
 
     /// Whether two planes meet between two places: they are equal at both, up to rounding.
+    #[inline(always)]
     pub fn meet(&self, a: u32, b: u32, places: [DVec2; 2]) -> bool {
         let (a, b) = (self.plane(a), self.plane(b));
         let one = |at: DVec2| {

@@ -169,10 +169,20 @@ fn whoever_is_not_shown_is_nearest_nowhere() {
                 let mut found = Vec::new();
                 for shown in shown {
                     let facet = gathered.facet(shown.number);
-                    band.covered(*shown, |line, along| found.push((facet, first + 64 * line as i32, along)));
+                    let all = |_: Range<usize>| true;
+                    band.covered(*shown, all, |line, along| found.push((facet, first + 64 * line as i32, along)));
                 }
                 found
             };
+            // Asking for some lines only leaves out the others, and nothing else.
+            for shown in &with_holes {
+                let (mut every, mut third) = (Vec::new(), Vec::new());
+                band.covered(*shown, |_| true, |line, along| every.push((line, along)));
+                let wants = |mut lines: Range<usize>| lines.any(|line| line % 3 == 1);
+                band.covered(*shown, wants, |line, along| third.push((line, along)));
+                every.retain(|(line, _)| line % 3 == 1);
+                assert_eq!(third, every, "{lines:?} of {part:?}");
+            }
             let mut all = Vec::new();
             bins.spans(part, lines, 64, |facet, line, along| all.push((*facet, line, along)));
             assert_eq!(covered(&with_holes), all, "{lines:?} of {part:?}");
