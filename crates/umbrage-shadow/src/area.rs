@@ -34,3 +34,18 @@ impl Area {
         Self { rect: TexelRect::new(min, last + IVec2::ONE), inside }
     }
 }
+
+/// Half-extent of a region, texels, whose rows are too short to be read one by one.
+pub(crate) const LONG: f32 = 5.0;
+
+/// Whether a window is read in less time row by row than sixteen texels at a time, wherever they lie: rows need half of the instructions or less, but a
+/// short one as many as a long one. Its texels are few enough to be counted in f32.
+#[inline(always)]
+pub(crate) fn reads_well(window: TexelRect) -> bool {
+    let IVec2 { x: columns, y: rows } = window.max - window.min;
+    let in_sixteens = |texels: i32| (texels + 15) >> 4;
+    columns < MOST && rows < MOST && 2 * rows * in_sixteens(columns) <= 3 * in_sixteens(columns * rows)
+}
+
+/// Sides of a window whose texels are counted without rounding.
+const MOST: i32 = 1 << 12;

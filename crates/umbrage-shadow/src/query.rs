@@ -1,4 +1,4 @@
-use crate::area::Area;
+use crate::area::{Area, LONG, reads_well};
 use crate::explained::{look, report};
 use crate::settled::{Passing, answer, by_rule, by_rules, ruled};
 use crate::surfaces::{Channel, Met, Seen, Surfaces};
@@ -482,21 +482,6 @@ impl<S: Simd, M, P> fmt::Debug for Query<'_, S, M, P> {
         f.debug_struct("Query").field("receiver", self.receiver).field("key", &self.key).finish_non_exhaustive()
     }
 }
-
-/// Half-extent of a region, texels, whose rows are too short to be read one by one.
-const LONG: f32 = 5.0;
-
-/// Whether a window is read in less time row by row than sixteen texels at a time, wherever they lie: rows need half of the instructions or less, but a
-/// short one as many as a long one. Its texels are few enough to be counted in f32.
-#[inline(always)]
-fn reads_well(window: TexelRect) -> bool {
-    let IVec2 { x: columns, y: rows } = window.max - window.min;
-    let in_sixteens = |texels: i32| (texels + 15) >> 4;
-    columns < MOST && rows < MOST && 2 * rows * in_sixteens(columns) <= 3 * in_sixteens(columns * rows)
-}
-
-/// Sides of a window whose texels are counted without rounding.
-const MOST: i32 = 1 << 12;
 
 /// Which of sixteen compared depths lie behind what is stored.
 #[inline(always)]
