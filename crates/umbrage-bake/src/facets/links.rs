@@ -111,7 +111,7 @@ impl<S: Simd> Links<'_, S> {
         }
     }
 
-    /// Line by line: that of a link would be searched again for each.
+    /// Finds the slots line by line: what covers a line is gone through once for all of its links.
     #[inline(always)]
     fn find<const N: usize>(&self, stored: &Stored, spans: [&Spans; 2], leading: &mut Leading) {
         let mut keys = [[f64x4::splat(self.simd, 0.0); N]; MOST];
