@@ -105,6 +105,20 @@ impl Gathered<'_> {
         (outline.low, outline.high)
     }
 
+    /// No more than any key that a facet has at those of its points that lie in a region (in 1/256 texel), however it is computed.
+    ///
+    /// # Panics
+    /// When there is none of that number.
+    #[inline(always)]
+    pub fn least_key(&self, number: u32, region: TexelRect) -> f64 {
+        let Outline { piece, low, high, .. } = &self.outlines[number as usize];
+        let plane = piece.plane();
+        let low = low.max(region.min).as_dvec2() / f64::from(SUBTEXELS);
+        let high = high.min(region.max).as_dvec2() / f64::from(SUBTEXELS);
+        let (across, down) = ((plane.dx * low.x).min(plane.dx * high.x), (plane.dy * low.y).min(plane.dy * high.y));
+        plane.c + across + down - rounding(&plane, high)
+    }
+
     /// Those `among` the facets that may be seen in a part of the region (in 1/256 texel), in the same order: their outlines reach it, and they do
     /// not lie behind another one all over it, one that covers the part and `fills` what it covers. `shown` is emptied first.
     ///

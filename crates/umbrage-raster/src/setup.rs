@@ -68,6 +68,11 @@ impl Piece {
         }
     }
 
+    #[inline(always)]
+    pub fn plane(&self) -> Affine {
+        self.plane
+    }
+
     /// What it covers, where that is known.
     #[inline(always)]
     pub fn patch(&self) -> Patch {

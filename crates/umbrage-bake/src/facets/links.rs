@@ -85,13 +85,17 @@ impl<S: Simd> Links<'_, S> {
     }
 
     /// Fills the links of blocks, of which these are stored; `spans` are the coverage of the part's rows and of those of its columns that have any.
+    /// Whether no slot sees beyond `farthest`, a key; where one does, nothing is filled.
     #[inline(always)]
-    pub fn fill(&self, blocks: &mut [FacetBlock], stored: &Stored, spans: [&Spans; 2]) {
+    pub fn fill(&self, blocks: &mut [FacetBlock], stored: &Stored, spans: [&Spans; 2], farthest: f64) -> bool {
         let mut leading = [[[0; MOST]; MOST]; 2];
-        match self.slots {
+        let is_within = match self.slots {
             // The number of vectors must be known where this is compiled; slots beyond the last are never read.
-            ..=16 => self.find::<4>(stored, spans, &mut leading),
-            _ => self.find::<8>(stored, spans, &mut leading),
+            ..=16 => self.find::<4>(stored, spans, farthest, &mut leading),
+            _ => self.find::<8>(stored, spans, farthest, &mut leading),
+        };
+        if !is_within {
+            return false;
         }
         let mut found = Vec::new();
         for block in blocks {
@@ -109,21 +113,38 @@ impl<S: Simd> Links<'_, S> {
             }
             block.links = found.as_slice().to_vec();
         }
+        true
     }
 
     /// Finds the slots line by line: what covers a line is gone through once for all of its links.
     #[inline(always)]
-    fn find<const N: usize>(&self, stored: &Stored, spans: [&Spans; 2], leading: &mut Leading) {
+    fn find<const N: usize>(&self, stored: &Stored, spans: [&Spans; 2], farthest: f64, leading: &mut Leading) -> bool {
         let mut keys = [[f64x4::splat(self.simd, 0.0); N]; MOST];
         let directions = [Lines::Rows, Lines::Columns].into_iter().zip(spans).zip(stored.0.iter().zip(leading));
         for ((lines, spans), (stored, leading)) in directions {
             for (line, (stored, leading)) in stored.iter().zip(leading).enumerate() {
                 if *stored != 0 {
                     self.nearest(lines, line, *stored, spans, &mut keys);
+                    if farthest < f64::INFINITY && !self.is_within(*stored, &keys, farthest) {
+                        return false;
+                    }
                     self.leading(lines, line, *stored, &keys, leading);
                 }
             }
         }
+        true
+    }
+
+    /// Whether no slot of some links sees beyond a key.
+    #[inline(always)]
+    fn is_within<const N: usize>(&self, stored: u64, keys: &[[f64x4<S>; N]; MOST], farthest: f64) -> bool {
+        let mut most = f64x4::splat(self.simd, f64::NEG_INFINITY);
+        for link in bits(stored) {
+            for keys in keys[link] {
+                most = most.max(keys);
+            }
+        }
+        most.simd_le(f64x4::splat(self.simd, farthest)).all_true()
     }
 
     /// The first slot of the first link of a line.

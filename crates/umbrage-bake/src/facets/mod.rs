@@ -2,6 +2,7 @@
 
 mod budget;
 mod casters;
+mod hidden;
 mod links;
 mod merged;
 mod nearest;

@@ -95,7 +95,7 @@ impl Grid {
         self.first + self.step * IVec2::new(x as i32, y as i32)
     }
 
-    /// Calls `row` with the nearest facets at the points of each row, as `spans` has the rows; [`NO_FACET`] where there is none. Keys are those at
+    /// Calls `row` with the nearest facets at the points of each row, as `spans` has the rows, and their keys; [`NO_FACET`] and +∞ where there is none. Keys are those at
     /// `from`, a coordinate along the rows, and what they change by to a point.
     #[inline(always)]
     pub fn nearest<S: Simd>(
@@ -105,7 +105,7 @@ impl Grid {
         planes: &[Affine],
         spans: &Spans,
         from: i32,
-        mut row: impl FnMut(usize, &[u32]),
+        mut row: impl FnMut(usize, &[u32], &[f64x4<S>]),
     ) {
         let Self { first, step, side } = self;
         let (shift, before) = (step.ilog2(), (first.x - from) / step);
@@ -146,9 +146,25 @@ impl Grid {
                     seen[lane] = facets[lane] as u32;
                 }
             }
-            row(y, &seen[..side]);
+            row(y, &seen[..side], keys);
         }
     }
+}
+
+/// The greatest of the first `count` keys.
+#[inline(always)]
+pub(super) fn farthest<S: Simd>(simd: S, keys: &[f64x4<S>], count: usize) -> f64 {
+    let (whole, rest) = keys.split_at(count / LANES);
+    let mut most = f64x4::splat(simd, f64::NEG_INFINITY);
+    for keys in whole {
+        most = most.max(*keys);
+    }
+    let most: [f64; LANES] = most.into();
+    let mut most = most[0].max(most[1]).max(most[2].max(most[3]));
+    for number in count - count % LANES..count {
+        most = most.max(rest[0][number % LANES]);
+    }
+    most
 }
 
 /// Room for the points of a row, 65 at most, in whole vectors.

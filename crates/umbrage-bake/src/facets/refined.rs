@@ -1,8 +1,9 @@
 //! One tile of a refined map: texels, samples, and where the first surface changes between them.
 
 use super::casters::Casters;
+use super::hidden::Hidden;
 use super::links::Links;
-use super::nearest::{Grid, SUBTEXELS, Spans, place_of, texels};
+use super::nearest::{Grid, SUBTEXELS, Spans, farthest, place_of, texels};
 use super::refinement::Refinement;
 use super::surface::Surface;
 use crate::masks::Masks;
@@ -53,6 +54,7 @@ pub(super) struct Scratch {
     shown: Vec<Shown>,
     /// The facets that may reach each part.
     lists: Vec<Vec<u32>>,
+    hidden: Hidden,
     rows: Spans,
     columns: Spans,
     samples: Vec<u32>,
@@ -84,7 +86,7 @@ impl Refined<'_> {
         let whole = TexelRect::new(own.min, own.max + step);
         let casters = Casters { gathered: bins.gathered(whole), masks };
         let all = 0..casters.gathered.len() as u32;
-        let Scratch { shown, lists, rows, columns, samples } = scratch;
+        let Scratch { shown, lists, hidden, rows, columns, samples } = scratch;
         casters.shown(whole, all.clone(), shown);
         let on_map = |texel: IVec2| (origin + texel).cmplt(view.size().as_ivec2()).all();
         if let Some(one) = casters.one(shown) {
@@ -137,17 +139,47 @@ impl Refined<'_> {
             let band = casters.gathered.band(region, Lines::Rows, SUBTEXELS);
             rows.set(&casters, band, PART, |_| true, at_centres);
             let centres = Grid { first: min + SUBTEXELS / 2, step: SUBTEXELS, side: PART };
-            centres.nearest(simd, &casters, &planes, rows, own.min.x + SUBTEXELS / 2, put);
+            let [mut near, mut far] = [f64::INFINITY, f64::NEG_INFINITY];
+            centres.nearest(
+                simd,
+                &casters,
+                &planes,
+                rows,
+                own.min.x + SUBTEXELS / 2,
+                #[inline(always)]
+                |y, facets, keys| {
+                    put(y, facets);
+                    far = far.max(farthest(simd, keys, PART));
+                    near = near.min(keys[0][0]);
+                },
+            );
             if parts == Parts::Texels {
                 continue;
             }
+            hidden.take(&casters, beyond, shown, [near, far]);
             let band = |lines| casters.gathered.band(beyond, lines, step);
-            rows.set(&casters, band(Lines::Rows), side, |_| true, &*shown);
             let grid = Grid { first: min + step / 2, step, side };
             let from = if crowded { own.min.x + step / 2 } else { grid.first.x };
-            grid.nearest(simd, &casters, &planes, rows, from, |y, facets| {
-                samples[y * side..][..side].copy_from_slice(facets);
-            });
+            loop {
+                rows.set(&casters, band(Lines::Rows), side, |_| true, &*shown);
+                let mut is_hidden = true;
+                grid.nearest(
+                    simd,
+                    &casters,
+                    &planes,
+                    rows,
+                    from,
+                    #[inline(always)]
+                    |y, facets, keys| {
+                        samples[y * side..][..side].copy_from_slice(facets);
+                        is_hidden &= hidden.least == f64::INFINITY || farthest(simd, keys, side) < hidden.least;
+                    },
+                );
+                if is_hidden {
+                    break;
+                }
+                hidden.put_back(shown);
+            }
             let before = blocks.len();
             let refine = Refine { surface: &surface, samples, grid, texels: &texels, origin, first, fine };
             refine.part(&mut blocks);
@@ -156,8 +188,14 @@ impl Refined<'_> {
                 let links = Links { simd, casters: &casters, surface: &surface, samples, grid, first, slots, fine };
                 let stored = links.stored(&blocks[before..]);
                 let wants = |lines: Range<usize>| stored.any(Lines::Columns, lines);
-                columns.set(&casters, band(Lines::Columns), side, wants, &*shown);
-                links.fill(&mut blocks[before..], &stored, [rows, columns]);
+                loop {
+                    columns.set(&casters, band(Lines::Columns), side, wants, &*shown);
+                    if links.fill(&mut blocks[before..], &stored, [rows, columns], hidden.least) {
+                        break;
+                    }
+                    hidden.put_back(shown);
+                    rows.set(&casters, band(Lines::Rows), side, |_| true, &*shown);
+                }
             }
         }
         blocks.sort_unstable_by_key(|block: &FacetBlock| block.texel);

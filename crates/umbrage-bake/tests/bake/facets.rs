@@ -167,6 +167,32 @@ fn refined_texels_see_through_holes_what_a_plain_test_of_each_sample_sees() {
     assert!(asked > 100_000 && refined > 10_000 && links > 1000, "{asked} samples, {refined} refined, {links} links");
 }
 
+/// Two walls, one nearer than the other, leave a slit between two columns of samples, and many surfaces lie behind them.
+#[test]
+fn what_lies_behind_all_samples_is_seen_through_a_slit_between_them() {
+    let view = View::orthographic(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 16.0, 1.0, 60.0, UVec2::splat(32)).unwrap();
+    let wall = |left: f32, right: f32, z: f32, object| {
+        quad(
+            [(left, -16.0), (right, -16.0), (right, 16.0), (left, 16.0)].map(|(x, y)| Vec3::new(x, y, z)),
+            object,
+            true,
+        )
+    };
+    // Of four samples of a texel the second and the third lie at 96/256 and 160/256 of it.
+    let (from, to) = (100.0 / 256.0, 120.0 / 256.0);
+    let walls: Vec<Triangle> = wall(-16.0, from, -5.0, 0).into_iter().chain(wall(to, 16.0, -8.0, 1)).collect();
+    let behind: Vec<Triangle> = (2..10).flat_map(|object| wall(-16.0, 16.0, -30.0 - object as f32, object)).collect();
+    let all: Vec<Triangle> = walls.iter().chain(&behind).copied().collect();
+    let crossings = [&walls, &all].map(|triangles| {
+        let map = bake_refined(&view, triangles.iter().copied(), &Refinement::default()).map;
+        (0..128).map(|y| map.link(IVec2::new(65, y), false).unwrap()).collect::<Vec<f64>>()
+    });
+    // Where nothing lies behind the slit, what it shows is no other surface, and the first one that is comes after it.
+    for (crossings, expected) in crossings.iter().zip([(120.0 - 96.0) / 64.0, (100.0 - 96.0) / 64.0]) {
+        assert!(crossings.iter().all(|crossing| (crossing - expected).abs() < 1.0 / 16.0), "{expected}: {crossings:?}");
+    }
+}
+
 /// How many samples, refined ones and links were found to be right.
 fn check_refined(holes: Option<&Holes>) -> [u32; 3] {
     let (mut asked, mut refined, mut links) = (0, 0, 0);
