@@ -3,6 +3,7 @@
 mod filters;
 mod job;
 mod pass1;
+mod pictures;
 mod rows;
 mod threads;
 
@@ -25,6 +26,7 @@ pub fn measure(settings: Settings, mut print: impl FnMut(String)) {
         rows(in_pool(1, || filters::look_ups(settings, side)));
     }
     rows(in_pool(1, || job::whole(settings)));
+    rows(in_pool(1, || pictures::shadowed(settings)));
     let (spin, scaling) = threads::two(settings);
     rows(scaling);
     print(format!("fact\tspin\t{spin:.2}"));
