@@ -5,11 +5,13 @@
 
 use crate::raster::{facets, first, midpoint, refined, second};
 use crate::scene::{HALF, Scene, bias};
+use fearless_simd::{f32x16, prelude::*};
+use glam::Vec2;
 use std::fmt;
 use std::sync::Arc;
 use umbrage_bake::{Deep, bake_deep};
 use umbrage_depth::{DepthMap, Raw};
-use umbrage_plane::{Bias, Receiver, SurfacePoint, View, vectorized};
+use umbrage_plane::{Bias, Receiver, SurfacePoint, TexelRect, View, vectorized};
 use umbrage_sample::{Jittered, Key, Table};
 use umbrage_shadow::{
     BiasCone, Biased, Conditional, DualPlane, Filter, OnPlane, Pcf, Query, Shadow, ShadowMap, Simd, Soft,
@@ -129,6 +131,26 @@ pub fn all(scene: &Scene, view: &View) -> Vec<LookUp> {
     all.push(LookUp::new("auto", "facets", DualPlane::default(), refined));
     all.push(LookUp::new("pcf-bias", "deep", closer(view), deep));
     all
+}
+
+/// Sums of sixteen depths of each receiver's region, and nothing else of a look-up: what storages cost.
+pub fn depths(map: &impl DepthMap, receivers: &[Receiver], out: &mut [f32]) {
+    vectorized!(simd => depths_with(simd, map, receivers, out));
+}
+
+#[inline(always)]
+fn depths_with<S: Simd, M: DepthMap>(simd: S, map: &M, receivers: &[Receiver], out: &mut [f32]) {
+    // The middles of four by four equal parts.
+    let place = |part: usize| HALF * (part as f32 - 1.5) * 0.5;
+    let x = f32x16::load_array(simd, std::array::from_fn(|tap| place(tap % 4)));
+    let y = f32x16::load_array(simd, std::array::from_fn(|tap| place(tap / 4)));
+    for (receiver, out) in receivers.iter().zip(out) {
+        let centre = receiver.texel.as_vec2();
+        let within = TexelRect::around(centre, Vec2::splat(HALF));
+        let depths = map.look(simd, within, x + f32x16::splat(simd, centre.x), y + f32x16::splat(simd, centre.y));
+        let depths: [f32; 16] = depths.into();
+        *out = depths.iter().sum();
+    }
 }
 
 /// Mean of fractions.

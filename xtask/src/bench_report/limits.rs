@@ -29,6 +29,10 @@ fn ours(rows: &[Row], like: &Row, what: &str) -> Option<f64> {
 
 fn why(row: &Row, rows: &[Row]) -> Option<String> {
     let part = |what: &str| ours(rows, row, what);
+    let alone = |storages: [&str; 2]| -> Option<[f64; 2]> {
+        let [a, b] = storages.map(|storage| part(&format!("sixteen depths alone, {storage}")));
+        Some([a?, b?])
+    };
     let share = |part: f64| format!("{:.0} %", part / row.ours * 100.0);
     let (what, map) = row.what.rsplit_once(" at ")?;
     let has = |text: &str| what.starts_with(text);
@@ -70,9 +74,11 @@ fn why(row: &Row, rows: &[Row]) -> Option<String> {
             format!("It looks at two sets of 16 places, blockers first and then the blur; 16 of a plain bias take {closer:.0} ns")
         }
         "look-ups" if has("pcf-bias facets") => {
-            "At each of 16 places it finds a tile, the index of a facet among small numbers of the tile's own width, and that facet's plane in f64, where tiles \
-             have one f32"
-                .into()
+            let [facets, tiled] = alone(["facets", "tiled"])?;
+            format!(
+                "Sixteen depths alone take {facets:.0} ns from facets, {tiled:.0} ns from tiles: at each place it finds a tile, the index of a facet among \
+                 small numbers of the tile's own width, and that facet's plane in f64, where tiles have one f32"
+            )
         }
         "look-ups" if row.peer == "listing" => {
             let (transform, from) = match what.split_once(", ") {
@@ -91,9 +97,11 @@ fn why(row: &Row, rows: &[Row]) -> Option<String> {
             )
         }
         "look-ups" if row.peer == "raw" => {
-            "A tile is found for each of 16 places by an index more than a plain array takes, and where a plane is compared its bounds are made for the tiles' \
-             ranges besides"
-                .into()
+            let [tiled, raw] = alone(["tiled", "raw"])?;
+            format!(
+                "Sixteen depths alone take {tiled:.0} ns from tiles, {raw:.0} ns from a plain array, where a place needs an index less; where a plane is \
+                 compared, its bounds are made for the tiles' ranges besides"
+            )
         }
         "look-ups" if has("auto") => format!(
             "At {map} these regions are wider than sixteen samples of the finer grid, and are judged place by place; at 1024² they are not",

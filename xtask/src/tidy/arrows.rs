@@ -121,7 +121,7 @@ const RULES: &[Rule] = &[
     Rule {
         package: "umbrage-bench",
         arrows: EVERY,
-        outside: &["cpu-time", "euc", "glam", "obvhs", "rayon"],
+        outside: &["cpu-time", "euc", "fearless_simd", "glam", "obvhs", "rayon"],
         tests: &["criterion"],
     },
     Rule { package: "umbrage-examples", arrows: EVERY, outside: &[], tests: &["glam"] },

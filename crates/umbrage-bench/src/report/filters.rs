@@ -1,9 +1,9 @@
 //! Rows of look-ups: every filter beside the listing, beside plain percentage closer, or beside itself over another storage.
 
 use super::rows::{Goal, Row, Settings};
-use crate::look_ups::{all, mean};
+use crate::look_ups::{all, depths, mean};
 use crate::peers::listing;
-use crate::raster::first;
+use crate::raster::{facets, first};
 use crate::scene::{HALF, Scene, Segments, bias};
 use crate::timing::{medians, processor_seconds};
 use std::cell::RefCell;
@@ -28,7 +28,9 @@ pub fn look_ups(settings: Settings, side: u32) -> Vec<Row> {
     let (points, view) = (&scene.points, Scene::view(side));
     let receivers = scene.receivers(&view);
     let places = listing::places(&receivers, side);
-    let map = Raw::copy_of(&first(&view, &scene.mesh.casters()).map);
+    let casters = scene.mesh.casters();
+    let (tiled, of_facets) = (first(&view, &casters).map, facets(&view, &casters).map);
+    let map = Raw::copy_of(&tiled);
     let look_ups = all(&scene, &view);
 
     let mut theirs = vec![0.0; points.len()];
@@ -46,6 +48,12 @@ pub fn look_ups(settings: Settings, side: u32) -> Vec<Row> {
         assert!((found - dark).abs() < far, "{look_up:?} finds {found} in shadow, the listing {dark}");
     }
 
+    depths(&map, &receivers, &mut of_points);
+    depths(&tiled, &receivers, &mut of_receivers);
+    assert_eq!(of_points, of_receivers, "the depths of tiles are those of an array");
+    depths(&of_facets, &receivers, &mut of_receivers);
+    assert_eq!(of_points, of_receivers, "the depths of facets are those of an array");
+
     let mut seen = vec![Err(Place::Behind); points.len()];
     let out = RefCell::new(of_points);
     let mut listed = || listing::fractions(&map, black_box(&places), HALF, bias(&view), &mut out.borrow_mut());
@@ -55,8 +63,12 @@ pub fn look_ups(settings: Settings, side: u32) -> Vec<Row> {
         ours.push(Box::new(|| look_up.of_points(black_box(points), &mut out.borrow_mut())));
         ours.push(Box::new(|| look_up.of_receivers(black_box(&receivers), &mut out.borrow_mut())));
     }
+    let mut raw_alone = || depths(&map, black_box(&receivers), &mut out.borrow_mut());
+    let mut tiled_alone = || depths(&tiled, black_box(&receivers), &mut out.borrow_mut());
+    let mut facets_alone = || depths(&of_facets, black_box(&receivers), &mut out.borrow_mut());
     let mut ways: Vec<&mut dyn FnMut()> = vec![&mut listed, &mut transform];
     ways.extend(ours.iter_mut().map(|way| &mut **way as &mut dyn FnMut()));
+    ways.extend([&mut raw_alone as &mut dyn FnMut(), &mut tiled_alone, &mut facets_alone]);
     let taken = medians(settings.rounds(), processor_seconds, &mut ways);
 
     let each = |seconds: f64| seconds * 1e9 / points.len() as f64;
@@ -71,6 +83,10 @@ pub fn look_ups(settings: Settings, side: u32) -> Vec<Row> {
         goal,
     };
     let mut rows = vec![row("transform alone".into(), taken[1], "listing".into(), listing, Goal::Free)];
+    for (storage, alone) in ["raw", "tiled", "facets"].into_iter().zip(&taken[taken.len() - 3..]) {
+        let what = format!("sixteen depths alone, {storage}");
+        rows.push(row(what, *alone, "pcf-bias raw, without transform".into(), closer[1], Goal::Free));
+    }
     for (index, look_up) in look_ups.iter().enumerate() {
         for (from, name) in FROM.into_iter().enumerate() {
             let ours = taken[2 + 2 * index + from];
