@@ -63,6 +63,20 @@ impl FacetDepths {
         let at = self.view.sampling().position(texel);
         no_surface::kept(self.decode.depth(plane.at(at) as f32, at).max(self.decode.depth(self.nearest, at)))
     }
+
+    /// The depths that sixteen texels store, by the keys of their planes at their samples and by the samples' positions: all x, all y.
+    #[inline(always)]
+    fn of_keys(&self, keys: &[f32; 16], [x, y]: &[[f64; 16]; 2], depths: &mut [f32; 16]) {
+        self.decode.in_loops(
+            #[inline(always)]
+            |decode| {
+                for i in 0..16 {
+                    let at = DVec2::new(x[i], y[i]);
+                    depths[i] = no_surface::kept(decode.depth(keys[i], at).max(decode.depth(self.nearest, at)));
+                }
+            },
+        );
+    }
 }
 
 impl FacetMap {
