@@ -1,10 +1,11 @@
 //! Maps of facets as words and back.
 
+use fearless_simd::{f32x16, prelude::*};
 use glam::{DVec2, DVec3, IVec2, UVec2};
 use umbrage_depth::{
     DepthMap, FacetBlock, FacetCells, FacetDepths, FacetMap, FacetSource, FacetTile, NO_FACET, Stored, TILE,
 };
-use umbrage_plane::{Affine, Kind, Sampling, TexelRect, View};
+use umbrage_plane::{Affine, Kind, Sampling, TexelRect, View, vectorized};
 
 const AREA: usize = (TILE * TILE) as usize;
 
@@ -100,6 +101,40 @@ fn views() -> Vec<View> {
             ]
         })
         .collect()
+}
+
+/// In one tile, over two by two of them, over more, and beyond the map.
+#[test]
+fn sixteen_texels_are_what_each_of_them_is() {
+    let mut random = Random(5);
+    let (mut one, mut several) = (0, 0);
+    for view in views() {
+        let size = view.size().as_ivec2();
+        for (fine, slots, seed) in [(1, 1, 0), (1, 1, 1), (1, 1, 2), (1, 1, 3), (1, 1, 4), (4, 16, 1)] {
+            let map = map(&view, fine, slots, seed);
+            for side in [1, 2, 9, 30, 64].repeat(20) {
+                let mut below = |end: i32| random.below(end as u32) as i32;
+                let min = IVec2::new(below(size.x + 4), below(size.y + 4)) - 2;
+                let within = TexelRect::new(min, min + side);
+                let texels: [IVec2; 16] = std::array::from_fn(|_| min + IVec2::new(below(side), below(side)));
+                let [x, y] = [texels.map(|texel| texel.x as f32 + 0.7), texels.map(|texel| texel.y as f32 + 0.2)];
+                let found: [f32; 16] = vectorized!(simd => {
+                    map.look(simd, within, f32x16::load_array(simd, x), f32x16::load_array(simd, y)).into()
+                });
+                assert_eq!(
+                    found.map(f32::to_bits),
+                    texels.map(|texel| map.depth(texel).to_bits()),
+                    "{within:?}, {view:?}"
+                );
+                if TexelRect::of_size(view.size()).encloses(within) {
+                    let tiles = (within.max - 1) / TILE as i32 - min / TILE as i32;
+                    one += u32::from(tiles == IVec2::ZERO);
+                    several += u32::from(tiles == IVec2::ONE);
+                }
+            }
+        }
+    }
+    assert!(one > 500 && several > 50, "{one} in one tile, {several} over two by two");
 }
 
 fn again(map: &FacetMap, words: &[u32]) -> Result<FacetMap, String> {
