@@ -126,7 +126,7 @@ fn why(row: &Row, rows: &[Row]) -> Option<String> {
             )
         }
         "pictures" => {
-            let maps = part(&what.replacen("shadows on", "maps of", 1))?;
+            let maps = part(&what.replacen("with shadows", "maps alone", 1))?;
             let added = row.ours - row.theirs;
             let (transform, look_up) = (part("transform alone")?, part("pcf-bias tiled")?);
             format!(

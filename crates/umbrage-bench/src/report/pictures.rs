@@ -13,10 +13,10 @@ use umbrage_shadow::Shadow;
 
 /// The scenes that stand for the paper's four.
 const SCENES: [(&str, Make); 4] = [
-    ("a sphere", gallery::sphere_plane),
+    ("sphere", gallery::sphere_plane),
     ("coloured lights", gallery::three_lights),
     ("desk lamps", gallery::desk_lamps),
-    ("a bicycle shop", gallery::bicycle_shop),
+    ("bicycle shop", gallery::bicycle_shop),
 ];
 
 /// The pictures, and what of each is pass 1.
@@ -58,7 +58,7 @@ fn of(settings: Settings, name: &str, make: Make) -> [Row; 2] {
     };
     let row = |what: &str, ours: f64, peer: &str, theirs: f64, goal| Row {
         group: "pictures",
-        what: format!("{what} {name}, {lights} at {side}²"),
+        what: format!("{name} {what}, {lights} at {side}²"),
         unit: "ms",
         ours: ours * 1e3,
         peer: peer.into(),
@@ -66,7 +66,7 @@ fn of(settings: Settings, name: &str, make: Make) -> [Row; 2] {
         goal: settings.always(goal),
     };
     [
-        row("shadows on", taken[1], "no shadows", taken[0], Goal::Within(1.2)),
-        row("maps of", taken[2], "shadows on it", taken[1], Goal::Free),
+        row("with shadows", taken[1], "without", taken[0], Goal::Within(1.2)),
+        row("maps alone", taken[2], "with shadows", taken[1], Goal::Free),
     ]
 }
