@@ -31,7 +31,7 @@ pub fn run(root: &Path) -> anyhow::Result<bool> {
             print!("{}{}", String::from_utf8_lossy(&made.stderr), String::from_utf8_lossy(&made.stdout));
             Ok(made.status.success())
         }
-        // Where the tests did not compile, there is no program.
+        // The program is missing when the tests did not compile.
         other => {
             println!("not made: {other:?}");
             Ok(false)

@@ -47,7 +47,7 @@ pub(super) struct Spans {
 }
 
 impl Spans {
-    /// Makes them those of a region's lines, of which there are no more than `count`; of no lines when there is no band. Lines of which `wants` says that none is wanted stay empty.
+    /// Makes them those of a region's lines, of which there are no more than `count`; without a band all of them are empty. Lines of which `wants` says that none is wanted stay empty.
     #[inline(always)]
     pub fn set<'s>(
         &mut self,

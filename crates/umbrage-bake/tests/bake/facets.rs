@@ -187,7 +187,7 @@ fn what_lies_behind_all_samples_is_seen_through_a_slit_between_them() {
         let map = bake_refined(&view, triangles.iter().copied(), &Refinement::default()).map;
         (0..128).map(|y| map.link(IVec2::new(65, y), false).unwrap()).collect::<Vec<f64>>()
     });
-    // Where nothing lies behind the slit, what it shows is no other surface, and the first one that is comes after it.
+    // With nothing behind it, nothing in the slit counts as another surface: the link ends where the second wall begins.
     for (crossings, expected) in crossings.iter().zip([(120.0 - 96.0) / 64.0, (100.0 - 96.0) / 64.0]) {
         assert!(crossings.iter().all(|crossing| (crossing - expected).abs() < 1.0 / 16.0), "{expected}: {crossings:?}");
     }

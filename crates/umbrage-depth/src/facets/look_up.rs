@@ -1,6 +1,6 @@
 //! Maps of facets as what every other map is.
 
-use super::tile::Planar;
+use super::planar::Planar;
 use super::{FacetMap, Facets, SHIFT, tile};
 use crate::{DepthMap, Stored, TILE};
 use fearless_simd::{Simd, f32x16, prelude::*};

@@ -4,6 +4,7 @@ mod known;
 mod look_up;
 mod map_words;
 mod packed;
+mod planar;
 mod samples;
 mod source;
 mod tile;
