@@ -116,7 +116,7 @@ impl Gathered<'_> {
         let low = low.max(region.min).as_dvec2() / f64::from(SUBTEXELS);
         let high = high.min(region.max).as_dvec2() / f64::from(SUBTEXELS);
         let (across, down) = ((plane.dx * low.x).min(plane.dx * high.x), (plane.dy * low.y).min(plane.dy * high.y));
-        plane.c + across + down - rounding(&plane, high)
+        plane.c + across + down - rounding(&plane, region.max.as_dvec2() / f64::from(SUBTEXELS))
     }
 
     /// Those `among` the facets that may be seen in a part of the region (in 1/256 texel), in the same order: their outlines reach it, and they do
@@ -173,10 +173,11 @@ fn merge(numbers: &mut Vec<u32>) {
     numbers.dedup();
 }
 
-/// More than what a plane's keys may be off by roundings, however they are computed, at places from the map's upper left corner to `most`, in texels.
+/// More than what a plane's keys may be off by roundings, however they are computed, at places from the map's upper left corner to `most`, in texels:
+/// also as multiples of the difference of two keys, up to 64 times it.
 #[inline(always)]
 fn rounding(plane: &Affine, most: DVec2) -> f64 {
-    32.0 * f64::EPSILON * (plane.c.abs() + plane.dx.abs() * most.x + plane.dy.abs() * most.y)
+    512.0 * f64::EPSILON * (plane.c.abs() + plane.dx.abs() * most.x + plane.dy.abs() * most.y)
 }
 
 /// `None` where an outline surely has no point in a rectangle, otherwise whether the rectangle surely lies inside of it; of an outline of more
