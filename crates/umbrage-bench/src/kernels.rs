@@ -1,4 +1,4 @@
-//! The five hottest loops, each alone behind [`measured`], so that a profiler can count what is inside it and nothing else.
+//! The six hottest loops, each alone behind [`measured`], so that a profiler can count what is inside it and nothing else.
 
 use crate::in_pool;
 use crate::look_ups::{closer, on_plane, ready};
@@ -7,7 +7,7 @@ use crate::raster::{first, refined};
 use crate::scene::{Scene, Segments};
 use std::hint::black_box;
 use umbrage_depth::Raw;
-use umbrage_plane::{TexelRect, vectorized};
+use umbrage_plane::{Place, TexelRect, vectorized};
 use umbrage_raster::{Bins, Cull};
 use umbrage_shadow::{DualPlane, Filter, ShadowMap, Simd};
 
@@ -17,13 +17,14 @@ const SIDE: u32 = 512;
 const STEP: usize = 16;
 
 /// Their names.
-pub const NAMES: [&str; 5] = ["pcf-raw", "auto", "bins-tiny", "tiles-layers", "pcf-plane-raw"];
+pub const NAMES: [&str; 6] = ["transform", "pcf-raw", "auto", "bins-tiny", "tiles-layers", "pcf-plane-raw"];
 
 /// Runs a kernel once, in a thread of its own pool; nothing where there is none of that name. The number of elements: receivers,
 /// triangles or texels.
 pub fn run(name: &str) -> Option<usize> {
     in_pool(1, || {
         Some(match name {
+            "transform" => transform(),
             "pcf-raw" => look_up(|view, casters| (closer(view), Raw::copy_of(&first(view, casters).map))),
             "pcf-plane-raw" => look_up(|view, casters| (on_plane(view), Raw::copy_of(&first(view, casters).map))),
             "auto" => look_up(|view, casters| (DualPlane::default(), refined(view, casters).map)),
@@ -41,6 +42,15 @@ pub fn run(name: &str) -> Option<usize> {
             _ => return None,
         })
     })
+}
+
+/// Points of the world as the light sees them.
+fn transform() -> usize {
+    let (scene, view) = (Scene::sparse(Segments::SMALL, SIDE, STEP), Scene::view(SIDE));
+    let mut seen = vec![Err(Place::Behind); scene.points.len()];
+    measured(&mut || view.receivers(black_box(&scene.points), &mut seen));
+    assert!(seen.iter().all(Result::is_ok), "all points lie before the light");
+    seen.len()
 }
 
 /// A filter over a map, asked about receivers that are in the light's space.

@@ -10,7 +10,7 @@
 //! * [`timing`]: interleaved medians, and how far two threads get on this machine.
 //! * [`report`]: the rows of the report, each beside its peer and its goal.
 //! * [`scale`]: how time and memory grow with triangles, maps and pictures.
-//! * [`kernels`]: the five hottest loops, alone, for counting instructions.
+//! * [`kernels`]: the six hottest loops, alone, for counting instructions.
 
 #![warn(missing_debug_implementations)]
 

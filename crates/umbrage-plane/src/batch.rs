@@ -6,7 +6,6 @@
 use crate::lanes::{LANES, Lanes, Lanes3};
 use crate::{Footprint, Kind, Place, Projection, Receiver, SurfacePoint, View, vectorized};
 use glam::{DMat4, DVec2, Vec2, Vec3};
-use std::array::from_fn;
 
 impl Lanes3 {
     /// [`DMat4::transform_vector3`] of each.
@@ -42,6 +41,50 @@ impl Lanes3 {
             all[i] = self.x[i] * other.x[i] + self.y[i] * other.y[i] + self.z[i] * other.z[i];
         }
         all
+    }
+}
+
+/// A place in a map of each, coordinate by coordinate.
+#[derive(Clone, Copy)]
+struct Lanes2<T> {
+    x: [T; LANES],
+    y: [T; LANES],
+}
+
+impl Lanes2<f64> {
+    #[inline(always)]
+    fn at(&self, lane: usize) -> DVec2 {
+        DVec2::new(self.x[lane], self.y[lane])
+    }
+}
+
+impl Lanes2<f32> {
+    #[inline(always)]
+    fn at(&self, lane: usize) -> Vec2 {
+        Vec2::new(self.x[lane], self.y[lane])
+    }
+}
+
+/// The map's origin, where nothing is known yet.
+const NOWHERE: Lanes2<f32> = Lanes2 { x: [0.0; LANES], y: [0.0; LANES] };
+
+/// The images of eight regions, as [`Footprint`] and [`Receiver::axes`] have them.
+struct Regions {
+    /// Whether a region has an extent, is all in front of the light, and small enough: the image of another one is a point, or has to be cut.
+    whole: [bool; LANES],
+    centre: Lanes2<f32>,
+    half: Lanes2<f32>,
+    corners: [Lanes2<f32>; 4],
+    axes: [Lanes2<f32>; 2],
+}
+
+impl Regions {
+    /// The image of one, and its half-axes.
+    #[inline(always)]
+    fn at(&self, lane: usize) -> (Footprint, [Vec2; 2]) {
+        let Self { centre, half, corners: [a, b, c, d], axes: [x, y], .. } = self;
+        let corners = [a.at(lane), b.at(lane), c.at(lane), d.at(lane)];
+        (Footprint { centre: centre.at(lane), half: half.at(lane), corners }, [x.at(lane), y.at(lane)])
     }
 }
 
@@ -81,33 +124,34 @@ impl View {
         let normal = Lanes3::of(|i| at[i].normal.as_dvec3()).turned(&self.world_to_eye);
         let Seen { facing, slope, depth, texel_world } = self.seen(&eye, &normal);
         let texels = self.texels(&eye);
-        let (corners, in_front) = self.corners(at, &eye);
+        let regions = self.regions(at, &eye);
         for i in 0..LANES {
             let own = eye.at(i);
-            out[i] = self.reached(-own.z).map(|()| {
-                let texel = texels[i];
-                let [first, second, third, _] = at[i].corner_offsets;
-                let footprint = if second == first && third == first {
-                    Footprint::point(texel.as_vec2())
-                } else if in_front[i] {
-                    self.capped(from_fn(|corner| corners[corner][i]), texel.as_vec2())
-                } else {
-                    self.footprint(&at[i], own, texel.as_vec2())
-                };
-                Receiver {
-                    kind: self.kind,
-                    footprint,
-                    texel,
-                    axes: footprint.axes(),
-                    cells: at[i].cells,
-                    depth: depth[i],
-                    texel_world: texel_world[i],
-                    facing: facing[i] as f32,
-                    slope: if slope[i].is_nan() { f32::INFINITY } else { slope[i] as f32 },
-                    object: at[i].object,
-                    eye: own,
-                    normal: normal.at(i),
+            if let Err(place) = self.reached(-own.z) {
+                out[i] = Err(place);
+                continue;
+            }
+            let texel = texels.at(i);
+            let (footprint, axes) = match &regions {
+                Some(regions) if regions.whole[i] => regions.at(i),
+                _ => {
+                    let footprint = self.footprint(&at[i], own, texel.as_vec2());
+                    (footprint, footprint.axes())
                 }
+            };
+            out[i] = Ok(Receiver {
+                kind: self.kind,
+                footprint,
+                texel,
+                axes,
+                cells: at[i].cells,
+                depth: depth[i],
+                texel_world: texel_world[i],
+                facing: facing[i] as f32,
+                slope: if slope[i].is_nan() { f32::INFINITY } else { slope[i] as f32 },
+                object: at[i].object,
+                eye: own,
+                normal: normal.at(i),
             });
         }
     }
@@ -120,37 +164,58 @@ impl View {
 
     /// [`View::eye_to_texel`] of each.
     #[inline(always)]
-    fn texels(&self, eye: &Lanes3) -> [DVec2; LANES] {
-        let mut all = [DVec2::ZERO; LANES];
+    fn texels(&self, eye: &Lanes3) -> Lanes2<f64> {
+        let mut all = Lanes2 { x: [0.0; LANES], y: [0.0; LANES] };
         for i in 0..LANES {
-            all[i] = self.eye_to_texel(eye.at(i));
+            let texel = self.eye_to_texel(eye.at(i));
+            (all.x[i], all.y[i]) = (texel.x, texel.y);
         }
         all
     }
 
-    /// The images of the four corners, and whether all of a point's corners are far enough in front of the light for them to
-    /// mean anything.
+    /// The images of the points' regions; `None` when none has an extent.
     #[inline(always)]
-    fn corners(&self, at: &[SurfacePoint; LANES], eye: &Lanes3) -> ([[Vec2; LANES]; 4], [bool; LANES]) {
-        let mut in_front = [true; LANES];
-        let mut images = [[Vec2::ZERO; LANES]; 4];
+    fn regions(&self, at: &[SurfacePoint; LANES], eye: &Lanes3) -> Option<Regions> {
         if at.iter().all(|point| point.corner_offsets == [Vec3::ZERO; 4]) {
-            return (images, in_front);
+            return None;
         }
-        for (corner, images) in images.iter_mut().enumerate() {
-            let offset = Lanes3::of(|i| at[i].corner_offsets[corner].as_dvec3());
+        let mut whole = [true; LANES];
+        for i in 0..LANES {
+            let [first, second, third, _] = at[i].corner_offsets;
+            whole[i] = second != first || third != first;
+        }
+        let mut corners = [NOWHERE; 4];
+        for (corner, images) in corners.iter_mut().enumerate() {
+            let offset = Lanes3::of(
+                #[inline(always)]
+                |i| at[i].corner_offsets[corner].as_dvec3(),
+            );
             let place = eye.plus(&offset.turned(&self.world_to_eye));
             if self.is_perspective() {
                 for i in 0..LANES {
-                    in_front[i] &= -place.z[i] >= -eye.z[i] * (1.0 / 16.0);
+                    whole[i] &= -place.z[i] >= -eye.z[i] * (1.0 / 16.0);
                 }
             }
             let texels = self.texels(&place);
             for i in 0..LANES {
-                images[i] = texels[i].as_vec2();
+                (images.x[i], images.y[i]) = (texels.x[i] as f32, texels.y[i] as f32);
             }
         }
-        (images, in_front)
+        let most = self.size.as_vec2() * 0.25;
+        let mut all = Regions { whole, centre: NOWHERE, half: NOWHERE, corners, axes: [NOWHERE; 2] };
+        for i in 0..LANES {
+            let footprint = Footprint::around(corners.each_ref().map(
+                #[inline(always)]
+                |corner| corner.at(i),
+            ));
+            let axes = footprint.axes();
+            (all.centre.x[i], all.centre.y[i]) = (footprint.centre.x, footprint.centre.y);
+            (all.half.x[i], all.half.y[i]) = (footprint.half.x, footprint.half.y);
+            (all.axes[0].x[i], all.axes[0].y[i]) = (axes[0].x, axes[0].y);
+            (all.axes[1].x[i], all.axes[1].y[i]) = (axes[1].x, axes[1].y);
+            all.whole[i] &= footprint.half.cmple(most).all();
+        }
+        Some(all)
     }
 
     #[inline(always)]

@@ -279,7 +279,7 @@ impl View {
 
     /// The footprint of four corners about the image of their region's centre, at most a quarter of the map to each side.
     #[inline(always)]
-    pub(crate) fn capped(&self, corners: [Vec2; 4], centre: Vec2) -> Footprint {
+    fn capped(&self, corners: [Vec2; 4], centre: Vec2) -> Footprint {
         let whole = Footprint::around(corners);
         let most = self.size.as_vec2() * 0.25;
         if whole.half.cmple(most).all() {

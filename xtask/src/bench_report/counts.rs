@@ -12,11 +12,12 @@ const HEADING: &str = "kernel,elements,instructions,instruction set,compiler";
 /// How far a count may lie from the recorded one, either way: what was made faster is to be recorded as well.
 const MOST: f64 = 0.02;
 /// As in `umbrage_bench::kernels::NAMES`.
-const KERNELS: [&str; 5] = ["pcf-raw", "auto", "bins-tiny", "tiles-layers", "pcf-plane-raw"];
+const KERNELS: [&str; 6] = ["transform", "pcf-raw", "auto", "bins-tiny", "tiles-layers", "pcf-plane-raw"];
 
-/// Functions whose closures belong inside them: one that stands alone is called for every sixteen taps, with its vectors in memory.
-/// Closures of `umbrage_plane::batch` and of the filter `dual_plane` hold no vectors; they may stand alone.
-const INLINED: [&str; 7] = [
+/// Functions whose closures belong inside them: one that stands alone is called for every sixteen taps or every receiver, with all it
+/// works on in memory. Closures of the filter `dual_plane` are called less often; they may stand alone.
+const INLINED: [&str; 8] = [
+    "umbrage_plane::batch::",
     "umbrage_shadow::query::Query",
     "umbrage_shadow::depths::",
     "umbrage_shadow::filters::pcf::",
