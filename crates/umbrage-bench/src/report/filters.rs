@@ -21,6 +21,9 @@ const SAME: f64 = 0.002;
 /// What a look-up is measured from.
 const FROM: [&str; 2] = ["", ", without transform"];
 
+/// Points that look-ups bring into the light's space together.
+const TOGETHER: usize = 16;
+
 /// All look-ups in maps of one size.
 pub fn look_ups(settings: Settings, side: u32) -> Vec<Row> {
     let segments = if settings.quick { Segments::SMALL } else { Segments::MEDIUM };
@@ -54,10 +57,15 @@ pub fn look_ups(settings: Settings, side: u32) -> Vec<Row> {
     depths(&of_facets, &receivers, &mut of_receivers);
     assert_eq!(of_points, of_receivers, "the depths of facets are those of an array");
 
-    let mut seen = vec![Err(Place::Behind); points.len()];
+    let mut seen = [Err(Place::Behind); TOGETHER];
     let out = RefCell::new(of_points);
     let mut listed = || listing::fractions(&map, black_box(&places), HALF, bias(&view), &mut out.borrow_mut());
-    let mut transform = || view.receivers(black_box(points), &mut seen);
+    let mut transform = || {
+        for points in points.chunks(TOGETHER) {
+            view.receivers(black_box(points), &mut seen[..points.len()]);
+            black_box(&seen);
+        }
+    };
     let mut ours: Vec<Box<dyn FnMut() + '_>> = Vec::new();
     for look_up in &look_ups {
         ours.push(Box::new(|| look_up.of_points(black_box(points), &mut out.borrow_mut())));
