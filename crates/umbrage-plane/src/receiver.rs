@@ -67,6 +67,12 @@ pub enum Bias {
 impl Bias {
     /// None at all.
     pub const ZERO: Self = Self::World(0.0);
+
+    /// Whether it depends on a receiver's [slope](Receiver::slope).
+    #[inline(always)]
+    pub const fn asks_tilt(self) -> bool {
+        matches!(self, Self::Steps(_))
+    }
 }
 
 /// A surface point as a light sees it.

@@ -24,6 +24,14 @@ use umbrage_sample::{Centre, Key, Pattern, Taps};
 pub trait Filter: Send + Sync {
     /// The fraction of the receiver's region that is in shadow, in 0..=1.
     fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32;
+
+    /// Whether it uses how a receiver is tilted over this map, its [`facing`](Receiver::facing) or its [`slope`](Receiver::slope). One that says it does
+    /// not is given receivers that have NaN for both, in less time.
+    #[inline(always)]
+    fn asks_tilt<M: DepthMap>(&self, map: &M) -> bool {
+        let _ = map;
+        true
+    }
 }
 
 /// [`Filter`] of something that wraps another filter.
@@ -33,6 +41,11 @@ macro_rules! forward {
             #[inline(always)]
             fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32 {
                 (**self).shadow(query)
+            }
+
+            #[inline(always)]
+            fn asks_tilt<M: DepthMap>(&self, map: &M) -> bool {
+                (**self).asks_tilt(map)
             }
         }
     };

@@ -93,6 +93,26 @@ impl Filter for Honest {
     }
 }
 
+/// Compares by the receiver's slope, and says that it does not.
+#[derive(Clone)]
+struct HidesSlope;
+
+impl Filter for HidesSlope {
+    fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32 {
+        query.share(&query.region(1.0, 1.0), &EveryTexel, &Biased::constant(Bias::Steps(1.0)))
+    }
+
+    fn asks_tilt<M: DepthMap>(&self, _: &M) -> bool {
+        false
+    }
+}
+
+#[test]
+fn the_laws_catch_a_filter_that_uses_a_slope_it_does_not_ask_for() {
+    let broken = laws::hold(&Subject::new("hides slope", HidesSlope)).unwrap_err();
+    assert!(broken.contains("a batch is its points one by one"), "{broken}");
+}
+
 #[test]
 fn the_laws_catch_a_filter_that_drops_verdicts_and_one_that_ignores_what_passes() {
     let broken = |subject: Subject| laws::hold(&subject).unwrap_err();

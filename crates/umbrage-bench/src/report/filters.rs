@@ -60,9 +60,10 @@ pub fn look_ups(settings: Settings, side: u32) -> Vec<Row> {
     let mut seen = [Err(Place::Behind); TOGETHER];
     let out = RefCell::new(of_points);
     let mut listed = || listing::fractions(&map, black_box(&places), HALF, bias(&view), &mut out.borrow_mut());
+    // As a plain bias wants them.
     let mut transform = || {
         for points in points.chunks(TOGETHER) {
-            view.receivers(black_box(points), &mut seen[..points.len()]);
+            view.receivers_for(black_box(points), false, &mut seen[..points.len()]);
             black_box(&seen);
         }
     };

@@ -63,6 +63,12 @@ proptest! {
             for (point, together) in points.iter().zip(&together) {
                 prop_assert_eq!(bits(together), bits(&view.receiver(point)), "{:?} in {:?}", point, view);
             }
+            let mut upright = vec![Err(Place::Outside); points.len()];
+            view.receivers_for(&points, false, &mut upright);
+            for (upright, together) in upright.iter().zip(&together) {
+                let tilted = |seen: Receiver| together.map_or(seen, |Receiver { facing, slope, .. }| Receiver { facing, slope, ..seen });
+                prop_assert_eq!(bits(&upright.map(tilted)), bits(together), "without tilt, in {:?}", view);
+            }
         }
     }
 }

@@ -33,7 +33,13 @@ impl AnyDepth {
     }
 }
 
-by_what_is_ready!(AnyDepth);
+by_what_is_ready!(AnyDepth, |depth| match depth {
+    AnyDepth::Biased(depth) => depth.asks_tilt(),
+    AnyDepth::OnPlane(depth) => depth.asks_tilt(),
+    AnyDepth::Cone(depth) => depth.asks_tilt(),
+    AnyDepth::Slope(depth) => depth.asks_tilt(),
+    AnyDepth::Offset(depth) => depth.asks_tilt(),
+});
 
 /// [`AnyDepth`] of one receiver.
 #[derive(Clone, Copy)]

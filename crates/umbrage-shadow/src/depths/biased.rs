@@ -55,7 +55,7 @@ impl Default for Biased {
     }
 }
 
-by_what_is_ready!(Biased);
+by_what_is_ready!(Biased, |depth| depth.low.asks_tilt() || depth.high.asks_tilt());
 
 /// [`Biased`] of one receiver.
 #[derive(Clone, Copy)]

@@ -58,7 +58,7 @@ impl BiasCone {
     }
 }
 
-by_what_is_ready!(BiasCone);
+by_what_is_ready!(BiasCone, |_| false);
 
 /// [`BiasCone`] of one receiver.
 #[derive(Clone, Copy)]

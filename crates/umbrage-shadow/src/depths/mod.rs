@@ -1,8 +1,9 @@
 //! Which depth is compared: the third of the three choices.
 
-/// [`ReceiverDepth`] of a type whose function `ready` prepares it for one receiver: all three functions are those of what that returns.
+/// [`ReceiverDepth`] of a type whose function `ready` prepares it for one receiver: the functions that compare are those of what that returns. `$tilt` is
+/// [`ReceiverDepth::asks_tilt`] of a value of the type.
 macro_rules! by_what_is_ready {
-    ($type:ty) => {
+    ($type:ty, $tilt:expr) => {
         impl $crate::ReceiverDepth for $type {
             #[inline(always)]
             fn lanes<S: fearless_simd::Simd>(
@@ -32,6 +33,12 @@ macro_rules! by_what_is_ready {
                 receiver: &'a umbrage_plane::Receiver,
             ) -> impl $crate::Compared + 'a {
                 self.ready(view, receiver)
+            }
+
+            #[inline(always)]
+            fn asks_tilt(&self) -> bool {
+                let tilt: fn(&Self) -> bool = $tilt;
+                tilt(self)
             }
         }
     };
@@ -68,6 +75,12 @@ pub trait ReceiverDepth: Send + Sync {
     #[inline(always)]
     fn prepared<'a>(&'a self, view: &'a View, receiver: &'a Receiver) -> impl Compared + 'a {
         Unprepared { depth: self, view, receiver }
+    }
+
+    /// Whether it uses a receiver's [`facing`](Receiver::facing) or its [`slope`](Receiver::slope), as [`Filter::asks_tilt`](crate::Filter::asks_tilt).
+    #[inline(always)]
+    fn asks_tilt(&self) -> bool {
+        true
     }
 }
 

@@ -74,7 +74,7 @@ impl NormalOffset {
     }
 }
 
-by_what_is_ready!(NormalOffset);
+by_what_is_ready!(NormalOffset, |_| true);
 
 /// A receiver that was moved before it is looked up: what a [`ReceiverDepth`](crate::ReceiverDepth) with an offset prepares.
 #[derive(Clone, Copy, Debug, PartialEq)]

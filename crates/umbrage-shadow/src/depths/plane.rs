@@ -57,7 +57,7 @@ impl OnPlane {
     }
 }
 
-by_what_is_ready!(OnPlane);
+by_what_is_ready!(OnPlane, |_| true);
 
 /// [`OnPlane`] of one receiver.
 #[derive(Clone, Copy)]

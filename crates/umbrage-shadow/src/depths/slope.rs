@@ -43,4 +43,4 @@ impl SlopeScaled {
     }
 }
 
-by_what_is_ready!(SlopeScaled);
+by_what_is_ready!(SlopeScaled, |depth| depth.constant.asks_tilt());

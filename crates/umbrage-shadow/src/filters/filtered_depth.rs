@@ -72,4 +72,9 @@ impl<P: Pattern> Filter for FilteredDepth<P> {
         let mean = sum / stopped;
         if f64::from(compared) > mean { (stopped / weight) as f32 } else { 0.0 }
     }
+
+    #[inline(always)]
+    fn asks_tilt<M: DepthMap>(&self, _: &M) -> bool {
+        self.bias.asks_tilt()
+    }
 }

@@ -78,4 +78,9 @@ impl<P: Pattern> Filter for IntegerFirst<P> {
             },
         )
     }
+
+    #[inline(always)]
+    fn asks_tilt<M: DepthMap>(&self, _: &M) -> bool {
+        false
+    }
 }

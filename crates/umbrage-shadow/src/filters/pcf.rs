@@ -65,4 +65,9 @@ impl<P: Pattern, D: ReceiverDepth> Filter for Pcf<P, D> {
         let region = query.region(self.res_factor, self.min_size);
         query.settled_or_share(&region, &self.pattern, &self.depth, self.cull)
     }
+
+    #[inline(always)]
+    fn asks_tilt<M: DepthMap>(&self, _: &M) -> bool {
+        self.depth.asks_tilt()
+    }
 }

@@ -324,4 +324,9 @@ impl<D: ReceiverDepth> Filter for Soft<D> {
         let dark = query.share(&region, &self.blur, &self.depth);
         beyond + (dark - beyond) * self.opacity.at(own - mean)
     }
+
+    #[inline(always)]
+    fn asks_tilt<M: DepthMap>(&self, _: &M) -> bool {
+        self.depth.asks_tilt()
+    }
 }

@@ -66,10 +66,11 @@ fn batch<S: Simd, F: Filter, M: DepthMap, P: Probe>(
 ) {
     let (filter, map) = (&shadow.filter, &shadow.map);
     let view = map.view();
+    let tilted = filter.asks_tilt(map);
     let mut seen = [Err(Place::Behind); TOGETHER];
     for (points, fractions) in at.chunks(TOGETHER).zip(out.chunks_mut(TOGETHER)) {
         let seen = &mut seen[..points.len()];
-        view.receivers(points, seen);
+        view.receivers_for(points, tilted, seen);
         for ((point, seen), fraction) in points.iter().zip(seen).zip(fractions) {
             *fraction = match seen {
                 Ok(receiver) => {

@@ -46,6 +46,12 @@ impl Filter for DualPlane {
         query.count(looked);
         fraction
     }
+
+    /// Planes of facets are compared without; other maps by [`OnPlane`].
+    #[inline(always)]
+    fn asks_tilt<M: DepthMap>(&self, map: &M) -> bool {
+        map.facets().is_none()
+    }
 }
 
 impl DualPlane {

@@ -112,6 +112,11 @@ impl<D: ReceiverDepth> Filter for FromMoments<D> {
         let Self { bleeding, lit_from, least_variance, moment_bias, .. } = *self;
         Inequality { bleeding, lit_from, least_variance, moment_bias }.over(moments, at, level, compared)
     }
+
+    #[inline(always)]
+    fn asks_tilt<M: DepthMap>(&self, _: &M) -> bool {
+        self.depth.asks_tilt()
+    }
 }
 
 /// What a [`FromMoments`] concludes by, whatever it compares.
