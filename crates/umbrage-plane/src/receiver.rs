@@ -94,9 +94,10 @@ pub struct Receiver {
     pub depth: f32,
     /// Width and height of a texel at this depth, in world units.
     pub texel_world: Vec2,
-    /// Cosine between normal and the direction to the light; ≤ 0 facing away.
+    /// Cosine between normal and the direction to the light; ≤ 0 facing away. NaN may stand where it [was not asked for](View::receivers_for).
     pub facing: f32,
     /// Depth change per world unit across the light's rays: tanθ on the axis, the effective slope σ elsewhere. +∞ edge-on.
+    /// NaN may stand where it [was not asked for](View::receivers_for).
     pub slope: f32,
     /// Id of the object.
     pub object: u32,

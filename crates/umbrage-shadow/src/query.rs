@@ -26,7 +26,7 @@ pub trait Filter: Send + Sync {
     fn shadow<S: Simd, M: DepthMap, P: Probe>(&self, query: &mut Query<'_, S, M, P>) -> f32;
 
     /// Whether it uses how a receiver is tilted over this map, its [`facing`](Receiver::facing) or its [`slope`](Receiver::slope). One that says it does
-    /// not is given receivers that have NaN for both, in less time.
+    /// not may be given receivers that have NaN for both, in less time.
     #[inline(always)]
     fn asks_tilt<M: DepthMap>(&self, map: &M) -> bool {
         let _ = map;
