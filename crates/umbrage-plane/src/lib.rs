@@ -97,7 +97,7 @@ pub use policy::{Place, Rules, Verdict};
 pub use receiver::{Bias, Receiver, SurfacePoint};
 pub use rect::TexelRect;
 pub use sampling::{Sampling, mix32};
-pub use simd::floor_texel;
+pub use simd::{floor_texel, integers};
 pub use view::{Projection, View};
 pub use view_error::ViewError;
 

@@ -54,7 +54,7 @@ pub use bins::Bins;
 pub use coverage::Coverage;
 pub use fragments::{RUN, each_fragment, each_run};
 pub use gathered::{Gathered, Shown};
-pub use spans::{Band, Lines};
+pub use spans::{Band, Lines, Runs};
 
 use glam::DVec3;
 

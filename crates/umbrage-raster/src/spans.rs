@@ -5,7 +5,8 @@ use crate::gathered::{Gathered, Shown};
 use crate::setup::SUBTEXELS;
 use glam::IVec2;
 use std::ops::Range;
-use umbrage_plane::{Facet, TexelRect};
+use umbrage_plane::fearless_simd::{Select, Simd, SimdBase, SimdFloat, f64x4, mask64x4};
+use umbrage_plane::{Facet, TexelRect, integers, vectorized};
 
 /// Which way lines run over a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,6 +85,44 @@ impl Crossed {
     }
 }
 
+/// Corners within this many 1/256 texels of the map's origin, twice the side of the largest map, are near: the products that say where their edges cross a line
+/// are exact in an `f64`, and a quotient that is no whole number lies so far from any that rounding does not make it one.
+const NEAR: i32 = 1 << 24;
+
+/// An edge from its end that is met first to the other.
+#[derive(Clone, Copy)]
+struct Edge<S: Simd> {
+    x: f64x4<S>,
+    y: f64x4<S>,
+    dx: f64x4<S>,
+    dy: f64x4<S>,
+}
+
+impl<S: Simd> Edge<S> {
+    #[inline(always)]
+    fn of(simd: S, top: IVec2, bottom: IVec2) -> Self {
+        let splat = |number: i32| f64x4::splat(simd, number.into());
+        let way = bottom - top;
+        Self { x: splat(top.x), y: splat(top.y), dx: splat(way.x), dy: splat(way.y) }
+    }
+
+    #[inline(always)]
+    fn either(first: mask64x4<S>, a: Self, b: Self) -> Self {
+        Self {
+            x: first.select(a.x, b.x),
+            y: first.select(a.y, b.y),
+            dx: first.select(a.dx, b.dx),
+            dy: first.select(a.dy, b.dy),
+        }
+    }
+
+    /// The least coordinate along each line that is not before the edge. Of a line that does not cross the edge it means nothing.
+    #[inline(always)]
+    fn crossing(self, y: f64x4<S>) -> f64x4<S> {
+        self.x + (self.dx * (y - self.y) / self.dy).ceil()
+    }
+}
+
 impl Bins {
     /// Calls `sink` with what each facet covers of the lines of a grid, in the order of the triangles: the facet, the line's coordinate,
     /// and the half-open interval of coordinates along it, all in 1/256 texel of the map.
@@ -111,11 +150,16 @@ impl Bins {
     pub fn spans(&self, region: TexelRect, lines: Lines, step: i32, mut sink: impl FnMut(&Facet, i32, Range<i32>)) {
         let gathered = self.gathered(region);
         let Some(band) = gathered.band(region, lines, step) else { return };
+        let mut runs = Runs::default();
         for number in 0..gathered.len() as u32 {
             let facet = gathered.facet(number);
-            let shown = Shown { number, covers: false };
-            let place = |line: usize| band.grid.first + ((line as i32) << band.grid.shift);
-            band.covered(shown, |_| true, |line, along| sink(&facet, place(line), along));
+            runs.clear();
+            vectorized!(simd => band.covered(simd, Shown { number, covers: false }, |_| true, &mut runs));
+            for (_, first, along) in runs.iter() {
+                for (line, along) in along.iter().enumerate().filter(|(_, along)| !along.is_empty()) {
+                    sink(&facet, band.grid.first + (((first + line) as i32) << band.grid.shift), along.clone());
+                }
+            }
         }
     }
 }
@@ -146,23 +190,59 @@ impl<'a> Gathered<'a> {
     }
 }
 
-impl Band<'_> {
-    /// Calls `sink` with what a facet covers of the lines, in their order: the number of a line, 0-based, and the half-open interval of coordinates
-    /// along it, in 1/256 texel. Of a facet of which it is not known that it covers the region, `covers` is false. Lines of which `wants` says that
-    /// none is wanted are left out.
+/// What facets cover of parallel lines, in runs: consecutive lines of a facet, with one interval on each.
+#[derive(Clone, Debug, Default)]
+pub struct Runs {
+    runs: Vec<Run>,
+    along: Vec<Range<i32>>,
+}
+
+/// Some lines of a facet.
+#[derive(Clone, Debug)]
+struct Run {
+    facet: u32,
+    line: u32,
+    /// The intervals among all.
+    along: Range<usize>,
+}
+
+impl Runs {
+    /// Of each run, the number of its facet, that of its first line (both 0-based), and the half-open interval of coordinates, in 1/256 texel, that the facet covers of
+    /// this line and of each that follows; empty where it covers nothing. Runs come in the order in which their facets were added; a facet that covers several
+    /// parts of a line has several.
+    pub fn iter(&self) -> impl Iterator<Item = (u32, usize, &[Range<i32>])> {
+        self.runs.iter().map(|run| (run.facet, run.line as usize, &self.along[run.along.clone()]))
+    }
+
+    /// Forgets all runs.
+    pub fn clear(&mut self) {
+        self.runs.clear();
+        self.along.clear();
+    }
+
     #[inline(always)]
-    pub fn covered(&self, shown: Shown, wants: impl Fn(Range<usize>) -> bool, mut sink: impl FnMut(usize, Range<i32>)) {
+    fn end(&mut self, facet: u32, line: usize, start: usize) {
+        self.runs.push(Run { facet, line: line as u32, along: start..self.along.len() });
+    }
+}
+
+impl Band<'_> {
+    /// Adds to `runs` what a facet covers of the lines, whose numbers are 0-based. Of a facet of which it is not known that it covers the region, `covers` is
+    /// false. It is left out when `wants` says of the lines that it crosses that none of them is wanted.
+    #[inline(always)]
+    pub fn covered<S: Simd>(&self, simd: S, shown: Shown, wants: impl Fn(Range<usize>) -> bool, runs: &mut Runs) {
         let Self { lines, grid, low, high, .. } = *self;
+        let (facet, start) = (shown.number, runs.along.len());
         if shown.covers {
-            for line in 0..grid.count as usize {
-                if wants(line..line + 1) {
-                    sink(line, low..high);
-                }
+            let count = grid.count as usize;
+            if wants(0..count) {
+                runs.along.extend(std::iter::repeat_n(low..high, count));
+                runs.end(facet, 0, start);
             }
             return;
         }
         match *self.gathered.outlines[shown.number as usize].corners {
-            [a, b, c] => {
+            [a, b, c] if [a, b, c].iter().all(|corner| corner.abs().max_element() <= NEAR) => {
                 let sorted = |a: IVec2, b: IVec2| if a.y <= b.y { (a, b) } else { (b, a) };
                 let (a, b) = sorted(lines.turned(a), lines.turned(b));
                 let (b, c) = sorted(b, lines.turned(c));
@@ -172,47 +252,65 @@ impl Band<'_> {
                 if top == bottom || !wants(top as usize..bottom as usize) {
                     return;
                 }
-                let middle = grid.before(b.y);
-                let mut long = Crossed::of(a, c, grid, top..bottom);
-                for (ends, crossing) in [((a, b), top..middle), ((b, c), middle..bottom)] {
-                    if crossing.is_empty() {
-                        continue;
-                    }
-                    let mut short = Crossed::of(ends.0, ends.1, grid, crossing.clone());
-                    for line in crossing {
-                        let (a, b) = (long.next(), short.next());
-                        let (from, to) = (a.min(b).max(low), a.max(b).min(high));
-                        let line = line as usize;
-                        if from < to && wants(line..line + 1) {
-                            sink(line, from..to);
-                        }
+                let splat = |number: i32| f64x4::splat(simd, number.into());
+                let (long, upper, lower) = (Edge::of(simd, a, c), Edge::of(simd, a, b), Edge::of(simd, b, c));
+                let (low, high, middle) = (splat(low), splat(high), splat(grid.before(b.y)));
+                let four = f64x4::from_slice(simd, &[0.0, 1.0, 2.0, 3.0]);
+                let count = (bottom - top) as usize;
+                runs.along.resize(start + count.next_multiple_of(4), 0..0);
+                for (line, along) in (top..).step_by(4).zip(runs.along[start..].as_chunks_mut::<4>().0) {
+                    let number = splat(line) + four;
+                    let y = splat(grid.first) + number * splat(1 << grid.shift);
+                    let short = Edge::either(number.simd_lt(middle), upper, lower);
+                    let (a, b) = (long.crossing(y), short.crossing(y));
+                    let from = a.min(b).max(low);
+                    let to = a.max(b).min(high).max(from);
+                    let (from, to) = (integers(from), integers(to));
+                    for lane in 0..4 {
+                        along[lane] = from[lane]..to[lane];
                     }
                 }
+                runs.along.truncate(start + count);
+                runs.end(facet, top as usize, start);
             }
-            ref corners => {
-                let mut crossings = vec![Vec::new(); grid.count as usize];
-                for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-                    let (a, b) = (lines.turned(*a), lines.turned(*b));
-                    let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
-                    let lines = grid.before(a.y)..grid.before(b.y);
-                    if lines.is_empty() {
-                        continue;
-                    }
-                    let mut edge = Crossed::of(a, b, grid, lines.clone());
-                    for line in lines {
-                        crossings[line as usize].push(edge.next());
-                    }
-                }
-                for (line, mut crossed) in crossings.into_iter().enumerate() {
-                    crossed.sort_unstable();
-                    for [from, to] in crossed.as_chunks().0 {
-                        let (from, to) = ((*from).max(low), (*to).min(high));
-                        if from < to && wants(line..line + 1) {
-                            sink(line, from..to);
-                        }
-                    }
-                }
+            ref corners => self.polygon(facet, corners, wants, runs),
+        }
+    }
+
+    /// What any polygon covers, however far its corners are.
+    #[cold]
+    fn polygon(&self, facet: u32, corners: &[IVec2], wants: impl Fn(Range<usize>) -> bool, runs: &mut Runs) {
+        let Self { lines, grid, low, high, .. } = *self;
+        let mut crossings = vec![Vec::new(); grid.count as usize];
+        for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+            let (a, b) = (lines.turned(*a), lines.turned(*b));
+            let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
+            let lines = grid.before(a.y)..grid.before(b.y);
+            if lines.is_empty() {
+                continue;
             }
+            let mut edge = Crossed::of(a, b, grid, lines.clone());
+            for line in lines {
+                crossings[line as usize].push(edge.next());
+            }
+        }
+        for crossed in &mut crossings {
+            crossed.sort_unstable();
+        }
+        let several = crossings.iter().map(|crossed| crossed.len() / 2).max().unwrap_or(0);
+        let Some(first) = crossings.iter().position(|crossed| !crossed.is_empty()) else { return };
+        let end = crossings.iter().rposition(|crossed| !crossed.is_empty()).map_or(0, |last| last + 1);
+        if !wants(first..end) {
+            return;
+        }
+        for pair in 0..several {
+            let start = runs.along.len();
+            runs.along.extend(crossings[first..end].iter().map(|crossed| {
+                let [from, to] = crossed.as_chunks().0.get(pair).copied().unwrap_or([low; 2]);
+                let from = from.max(low);
+                from..to.min(high).max(from)
+            }));
+            runs.end(facet, first, start);
         }
     }
 }

@@ -1,14 +1,14 @@
 //! Where the first surface changes between neighbouring samples.
 
 use super::casters::{Casters, bits};
-use super::nearest::{Grid, LANES, SUBTEXELS, Spans, numbers, place_of, texels};
+use super::nearest::{Four, Grid, LANES, SUBTEXELS, numbers, place_of, texels};
 use super::surface::Surface;
-use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4};
+use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4};
 use glam::{IVec2, USizeVec2};
 use std::ops::Range;
 use umbrage_depth::FacetBlock;
 use umbrage_plane::Affine;
-use umbrage_raster::{BIN, Lines};
+use umbrage_raster::{BIN, Lines, Runs};
 
 /// The samples of a part, and what is seen on the links between them.
 pub(super) struct Links<'a, S> {
@@ -84,15 +84,22 @@ impl<S: Simd> Links<'_, S> {
         end.cmplt(map).all() && !self.surface.meet(a, b, [start, end].map(texels))
     }
 
-    /// Fills the links of blocks, of which these are stored; `spans` are the coverage of the part's rows and of those of its columns that have any.
+    /// Fills the links of blocks, of which these are stored; `runs` are what is covered of the part's rows, and of those of its columns that have any; `keys` is room to work in.
     /// Whether no slot sees beyond `farthest`, a key; where one does, nothing is filled.
     #[inline(always)]
-    pub fn fill(&self, blocks: &mut [FacetBlock], stored: &Stored, spans: [&Spans; 2], farthest: f64) -> bool {
+    pub fn fill(
+        &self,
+        blocks: &mut [FacetBlock],
+        stored: &Stored,
+        runs: [&Runs; 2],
+        keys: &mut Vec<Four>,
+        farthest: f64,
+    ) -> bool {
         let mut leading = [[[0; MOST]; MOST]; 2];
         let is_within = match self.slots {
             // The number of vectors must be known where this is compiled; slots beyond the last are never read.
-            ..=16 => self.find::<4>(stored, spans, farthest, &mut leading),
-            _ => self.find::<8>(stored, spans, farthest, &mut leading),
+            ..=16 => self.find::<4>(stored, runs, keys, farthest, &mut leading),
+            _ => self.find::<8>(stored, runs, keys, farthest, &mut leading),
         };
         if !is_within {
             return false;
@@ -116,35 +123,34 @@ impl<S: Simd> Links<'_, S> {
         true
     }
 
-    /// Finds the slots line by line: what covers a line is gone through once for all of its links.
+    /// Finds the slots: each facet is gone through once for all of the links that it reaches.
     #[inline(always)]
-    fn find<const N: usize>(&self, stored: &Stored, spans: [&Spans; 2], farthest: f64, leading: &mut Leading) -> bool {
-        let mut keys = [[f64x4::splat(self.simd, 0.0); N]; MOST];
-        let directions = [Lines::Rows, Lines::Columns].into_iter().zip(spans).zip(stored.0.iter().zip(leading));
-        for ((lines, spans), (stored, leading)) in directions {
-            for (line, (stored, leading)) in stored.iter().zip(leading).enumerate() {
-                if *stored != 0 {
-                    self.nearest(lines, line, *stored, spans, &mut keys);
-                    if farthest < f64::INFINITY && !self.is_within(*stored, &keys, farthest) {
-                        return false;
-                    }
-                    self.leading(lines, line, *stored, &keys, leading);
-                }
+    fn find<const N: usize>(
+        &self,
+        stored: &Stored,
+        runs: [&Runs; 2],
+        keys: &mut Vec<Four>,
+        farthest: f64,
+        leading: &mut Leading,
+    ) -> bool {
+        let directions = [Lines::Rows, Lines::Columns].into_iter().zip(runs).zip(stored.0.iter().zip(leading));
+        for ((lines, runs), (stored, leading)) in directions {
+            let mut before = [0; MOST + 1];
+            for line in 0..MOST {
+                before[line + 1] = before[line] + stored[line].count_ones() as usize;
+            }
+            keys.clear();
+            keys.resize(before[MOST] * N, [f64::INFINITY; LANES]);
+            let keys = keys.as_chunks_mut::<N>().0;
+            self.nearest(lines, stored, &before, runs, keys);
+            if farthest < f64::INFINITY && keys.as_flattened().as_flattened().iter().any(|key| *key > farthest) {
+                return false;
+            }
+            for (line, leading) in leading.iter_mut().enumerate() {
+                self.leading(lines, line, stored[line], &keys[before[line]..before[line + 1]], leading);
             }
         }
         true
-    }
-
-    /// Whether no slot of some links sees beyond a key.
-    #[inline(always)]
-    fn is_within<const N: usize>(&self, stored: u64, keys: &[[f64x4<S>; N]; MOST], farthest: f64) -> bool {
-        let mut most = f64x4::splat(self.simd, f64::NEG_INFINITY);
-        for link in bits(stored) {
-            for keys in keys[link] {
-                most = most.max(keys);
-            }
-        }
-        most.simd_le(f64x4::splat(self.simd, farthest)).all_true()
     }
 
     /// The first slot of the first link of a line.
@@ -160,49 +166,54 @@ impl<S: Simd> Links<'_, S> {
         self.grid.step / self.slots
     }
 
-    /// The nearest keys at the slots of a line's links.
+    /// The nearest keys at the slots of all links along some lines: those of a line follow the links `before` it.
     #[inline(always)]
     fn nearest<const N: usize>(
         &self,
         lines: Lines,
-        line: usize,
-        stored: u64,
-        spans: &Spans,
-        keys: &mut [[f64x4<S>; N]; MOST],
+        stored: &[u64; MOST],
+        before: &[usize; MOST + 1],
+        runs: &Runs,
+        keys: &mut [[Four; N]],
     ) {
         let (simd, gap, step) = (self.simd, self.gap(), self.grid.step);
         let toward = toward(lines);
         let start = self.grid.first.dot(toward);
-        for link in bits(stored) {
-            keys[link] = [f64x4::splat(simd, f64::INFINITY); N];
-        }
-        for span in spans.line(line) {
-            // Those that begin before its end and end after its start.
-            let (from, to) = (span.along.start - start, span.along.end - start + step - 1);
-            let (from, to) = ((from >> step.ilog2()).max(0), to >> step.ilog2());
-            let before = |link: i32| if link < MOST as i32 { (1 << link) - 1 } else { u64::MAX };
-            let reached = stored & before(to) & !before(from);
-            if reached == 0 {
-                continue;
-            }
-            let plane = self.surface.planes[span.facet as usize];
-            let (from, to) = (f64x4::splat(simd, span.along.start.into()), f64x4::splat(simd, span.along.end.into()));
-            for link in bits(reached) {
-                let first = self.first_slot(lines, line) + toward * (step * link as i32);
-                let key = plane.at(texels(first));
-                let change = plane.at(texels(first + toward * gap)) - key;
-                let along = f64x4::splat(simd, first.dot(toward).into());
-                for (vector, nearest) in keys[link].iter_mut().enumerate() {
-                    let slot = numbers(simd) + f64x4::splat(simd, (LANES * vector) as f64);
-                    let key = change * slot + key;
-                    let along = along + slot * f64x4::splat(simd, gap.into());
-                    let mut is_nearer = key.simd_lt(*nearest) & along.simd_ge(from) & along.simd_lt(to);
-                    if span.masked {
-                        let place = |lane: usize| texels(first + toward * (gap * (LANES * vector + lane) as i32));
-                        let there = self.casters.there(span.facet, is_nearer.to_bitmask(), place);
-                        is_nearer = SimdMask::from_bitmask(simd, there);
+        let infinite = f64x4::splat(simd, f64::INFINITY);
+        for (facet, first, along) in runs.iter() {
+            let plane = self.surface.planes[facet as usize];
+            let masked = self.casters.masks.of(&self.casters.gathered.facet(facet)).is_some();
+            // No link of the last line, which lies beyond the part, is stored.
+            for ((line, stored), along) in stored.iter().enumerate().skip(first).zip(along) {
+                // Those that begin before its end and end after its start.
+                let (from, to) = (along.start - start, along.end - start + step - 1);
+                let (from, to) = ((from >> step.ilog2()).max(0), to >> step.ilog2());
+                let until = |link: i32| if link < MOST as i32 { (1 << link) - 1 } else { u64::MAX };
+                let reached = stored & until(to) & !until(from);
+                if reached == 0 || along.is_empty() {
+                    continue;
+                }
+                let (from, to) = (f64x4::splat(simd, along.start.into()), f64x4::splat(simd, along.end.into()));
+                let number = before[line] + (stored & until(reached.trailing_zeros() as i32)).count_ones() as usize;
+                for (link, keys) in bits(reached).zip(&mut keys[number..]) {
+                    let first = self.first_slot(lines, line) + toward * (step * link as i32);
+                    let key = plane.at(texels(first));
+                    let change = plane.at(texels(first + toward * gap)) - key;
+                    let along = f64x4::splat(simd, first.dot(toward).into());
+                    for (vector, nearest) in keys.iter_mut().enumerate() {
+                        let slot = numbers(simd) + f64x4::splat(simd, (LANES * vector) as f64);
+                        let key = change * slot + key;
+                        let along = along + slot * f64x4::splat(simd, gap.into());
+                        let before = f64x4::simd_from(simd, *nearest);
+                        let mut is_there = along.simd_ge(from) & along.simd_lt(to);
+                        if masked {
+                            is_there = is_there & key.simd_lt(before);
+                            let place = |lane: usize| texels(first + toward * (gap * (LANES * vector + lane) as i32));
+                            let there = self.casters.there(facet, is_there.to_bitmask(), place);
+                            is_there = SimdMask::from_bitmask(simd, there);
+                        }
+                        *nearest = before.min(is_there.select(key, infinite)).into();
                     }
-                    *nearest = is_nearer.select(key, *nearest);
                 }
             }
         }
@@ -215,24 +226,25 @@ impl<S: Simd> Links<'_, S> {
         lines: Lines,
         line: usize,
         stored: u64,
-        keys: &[[f64x4<S>; N]; MOST],
+        keys: &[[Four; N]],
         leading: &mut [u8; MOST],
     ) {
         let simd = self.simd;
         let toward = toward(lines);
         let change = texels(toward * self.gap());
         let (dx, dy) = (f64x4::splat(simd, change.x), f64x4::splat(simd, change.y));
-        for link in bits(stored) {
+        for (link, keys) in bits(stored).zip(keys) {
             let [a, b] = self.ends(lines, if lines == Lines::Rows { [link, line] } else { [line, link] });
             let (a, b) = (self.surface.plane(a), self.surface.plane(b));
             let first = texels(self.first_slot(lines, line) + toward * (self.grid.step * link as i32));
             let (x, y) = (f64x4::splat(simd, first.x), f64x4::splat(simd, first.y));
             let mut own: u32 = 0;
-            for (vector, keys) in keys[link].iter().enumerate() {
+            for (vector, keys) in keys.iter().enumerate() {
                 let slot = numbers(simd) + f64x4::splat(simd, (LANES * vector) as f64);
                 // Places are multiples of 1/256 texel: nothing is rounded.
                 let at = [x + dx * slot, y + dy * slot];
-                let is_own = off(simd, a, at, *keys).simd_le(off(simd, b, at, *keys));
+                let keys = f64x4::simd_from(simd, *keys);
+                let is_own = off(simd, a, at, keys).simd_le(off(simd, b, at, keys));
                 own |= (is_own.to_bitmask() as u32) << (LANES * vector);
             }
             leading[link] = own.trailing_ones().min(self.slots as u32 - 1) as u8;

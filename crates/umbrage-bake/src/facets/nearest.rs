@@ -1,12 +1,12 @@
 //! The nearest facets at the points of a grid.
 
 use super::casters::Casters;
-use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4};
+use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4};
 use glam::{DVec2, IVec2};
 use std::ops::Range;
 use umbrage_depth::NO_FACET;
-use umbrage_plane::Affine;
-use umbrage_raster::{Band, Shown};
+use umbrage_plane::{Affine, integers};
+use umbrage_raster::{Band, Runs, Shown};
 
 /// 1/256 texel: corners are snapped to multiples of it, as are all places here.
 pub(super) const SUBTEXELS: i32 = 256;
@@ -31,53 +31,31 @@ pub(super) fn points(along: &Range<i32>, first: i32, shift: u32, count: usize) -
     index(along.start)..index(along.end)
 }
 
-/// The part of a line that a facet covers, in 1/256 texel.
-#[derive(Clone, Debug)]
-pub(super) struct Span {
-    pub facet: u32,
-    /// Whether the facet may have holes.
-    pub masked: bool,
-    pub along: Range<i32>,
+/// Makes `runs` what the facets that may be seen in a region cover of its lines, which are those of a band; without a band there are none. A facet is left out when `wants`
+/// says of the lines that it crosses that none of them is wanted.
+#[inline(always)]
+pub(super) fn set<'s, S: Simd>(
+    simd: S,
+    runs: &mut Runs,
+    band: Option<Band<'_>>,
+    wants: impl Fn(Range<usize>) -> bool,
+    shown: impl IntoIterator<Item = &'s Shown>,
+) {
+    runs.clear();
+    let Some(band) = band else { return };
+    for shown in shown {
+        band.covered(simd, *shown, &wants, runs);
+    }
 }
 
-/// The parts of parallel lines over a region that the facets that may be seen in it cover, in the order of the triangles for each line.
+/// Numbers of a vector in memory.
+pub(super) type Four = [f64; LANES];
+
+/// Room for the keys and the numbers of the nearest facets, row by row.
 #[derive(Default)]
-pub(super) struct Spans {
-    lines: Vec<Vec<Span>>,
-}
-
-impl Spans {
-    /// Makes them those of a region's lines, of which there are no more than `count`; without a band all of them are empty. Lines of which `wants` says that none is wanted stay empty.
-    #[inline(always)]
-    pub fn set<'s>(
-        &mut self,
-        casters: &Casters<'_>,
-        band: Option<Band<'_>>,
-        count: usize,
-        wants: impl Fn(Range<usize>) -> bool,
-        shown: impl IntoIterator<Item = &'s Shown>,
-    ) {
-        if self.lines.len() < count {
-            self.lines.resize_with(count, Vec::new);
-        }
-        self.lines[..count].iter_mut().for_each(Vec::clear);
-        let Some(band) = band else { return };
-        for shown in shown {
-            let facet = shown.number;
-            let masked = casters.masks.of(&casters.gathered.facet(facet)).is_some();
-            band.covered(
-                *shown,
-                &wants,
-                #[inline(always)]
-                |line, along| self.lines[line].push(Span { facet, masked, along }),
-            );
-        }
-    }
-
-    #[inline(always)]
-    pub fn line(&self, line: usize) -> &[Span] {
-        &self.lines[line]
-    }
+pub(super) struct Seen {
+    keys: Vec<Four>,
+    facets: Vec<Four>,
 }
 
 /// The points of a square grid: the place of the first and the distance to the next, in 1/256 texel, and the number along a side.
@@ -95,69 +73,84 @@ impl Grid {
         self.first + self.step * IVec2::new(x as i32, y as i32)
     }
 
-    /// Calls `row` with the nearest facets at the points of each row, as `spans` has the rows, and their keys; [`NO_FACET`] and +∞ where there is none. Keys are those at
-    /// `from`, a coordinate along the rows, and what they change by to a point.
+    /// Calls `row` with the nearest facets at the points of each row, of which `rows` has what is covered, and their keys; [`NO_FACET`] and +∞ where there is none. Keys are those at
+    /// `from`, a coordinate along the rows, and what they change by to a point. Facets must come in the order of their numbers.
     #[inline(always)]
     pub fn nearest<S: Simd>(
         self,
         simd: S,
         casters: &Casters<'_>,
         planes: &[Affine],
-        spans: &Spans,
+        rows: &Runs,
         from: i32,
-        mut row: impl FnMut(usize, &[u32], &[f64x4<S>]),
+        nearest: &mut Seen,
+        mut row: impl FnMut(usize, &[u32], &[Four]),
     ) {
         let Self { first, step, side } = self;
         let (shift, before) = (step.ilog2(), (first.x - from) / step);
         let vectors = side.div_ceil(LANES);
-        let mut keys = [f64x4::splat(simd, 0.0); MOST_POINTS / LANES];
-        let mut facets = keys;
-        let (keys, facets) = (&mut keys[..vectors], &mut facets[..vectors]);
-        let mut seen = [NO_FACET; MOST_POINTS];
-        for y in 0..side {
-            let at = IVec2::new(from, first.y + step * y as i32);
-            keys.fill(f64x4::splat(simd, f64::INFINITY));
-            facets.fill(f64x4::splat(simd, NO_FACET.into()));
-            for Span { facet, masked, along } in spans.line(y) {
+        let Seen { keys, facets } = nearest;
+        keys.clear();
+        facets.clear();
+        keys.resize(side * vectors, [f64::INFINITY; LANES]);
+        facets.resize(side * vectors, [NONE; LANES]);
+        let (infinite, none) = (f64x4::splat(simd, f64::INFINITY), f64x4::splat(simd, NONE));
+        for (facet, line, along) in rows.iter() {
+            let plane = planes[facet as usize];
+            let masked = casters.masks.of(&casters.gathered.facet(facet)).is_some();
+            let dx = plane.dx * (f64::from(step) / f64::from(SUBTEXELS));
+            // Numbers of 32 bits are exact as floats, and chosen by the same masks as keys.
+            let own = f64x4::splat(simd, f64::from(facet));
+            for (y, along) in (line..).zip(along) {
                 let covered = points(along, first.x, shift, side);
-                let plane = planes[*facet as usize];
+                if covered.is_empty() {
+                    continue;
+                }
+                let at = IVec2::new(from, first.y + step * y as i32);
                 let key = plane.at(texels(at));
-                let dx = plane.dx * (f64::from(step) / f64::from(SUBTEXELS));
-                let (begin, end) = (f64x4::splat(simd, covered.start as f64), f64x4::splat(simd, covered.end as f64));
-                // Numbers of 32 bits are exact as floats, and chosen by the same masks as keys.
-                let own = f64x4::splat(simd, f64::from(*facet));
-                for vector in covered.start / LANES..covered.end.div_ceil(LANES) {
-                    let point = numbers(simd) + f64x4::splat(simd, (LANES * vector) as f64);
-                    let key = dx * (point + f64x4::splat(simd, before.into())) + key;
-                    let mut is_nearer = key.simd_lt(keys[vector]) & point.simd_ge(begin) & point.simd_lt(end);
-                    if *masked {
+                let place = |point: usize| f64x4::splat(simd, f64::from(before + point as i32));
+                let (begin, end) = (place(covered.start), place(covered.end));
+                let reached = covered.start / LANES..covered.end.div_ceil(LANES);
+                let mut point = place(LANES * reached.start) + numbers(simd);
+                let row = y * vectors + reached.start..y * vectors + reached.end;
+                for ((keys, facets), vector) in keys[row.clone()].iter_mut().zip(&mut facets[row]).zip(reached) {
+                    let key = dx * point + key;
+                    let nearest = f64x4::simd_from(simd, *keys);
+                    let mut is_nearer = key.simd_lt(nearest) & point.simd_ge(begin) & point.simd_lt(end);
+                    point += f64x4::splat(simd, LANES as f64);
+                    if masked {
                         let first = before + (LANES * vector) as i32;
                         let place = |lane: usize| texels(at + IVec2::X * (step * (first + lane as i32)));
-                        let there = casters.there(*facet, is_nearer.to_bitmask(), place);
+                        let there = casters.there(facet, is_nearer.to_bitmask(), place);
                         is_nearer = SimdMask::from_bitmask(simd, there);
                     }
-                    keys[vector] = is_nearer.select(key, keys[vector]);
-                    facets[vector] = is_nearer.select(own, facets[vector]);
+                    // A minimum and a maximum: choices would be stored with a mask, at which some processors are slow. A later facet
+                    // has the greater number.
+                    *keys = nearest.min(is_nearer.select(key, infinite)).into();
+                    *facets = f64x4::simd_from(simd, *facets).max(is_nearer.select(own, none)).into();
                 }
             }
-            for (seen, facets) in seen.as_chunks_mut::<LANES>().0.iter_mut().zip(&*facets) {
-                let facets: [f64; LANES] = (*facets).into();
-                for lane in 0..LANES {
-                    seen[lane] = facets[lane] as u32;
-                }
+        }
+        let mut seen = [NO_FACET; MOST_POINTS];
+        for (y, (keys, facets)) in keys.chunks_exact(vectors).zip(facets.chunks_exact(vectors)).enumerate() {
+            for (seen, facets) in seen.as_chunks_mut::<LANES>().0.iter_mut().zip(facets) {
+                *seen = integers(f64x4::simd_from(simd, *facets)).map(|facet| facet as u32);
             }
             row(y, &seen[..side], keys);
         }
     }
 }
 
+/// What stands for [`NO_FACET`] among floats: less than the number of any facet, and the same bits as an integer.
+const NONE: f64 = -1.0;
+
 /// The greatest of the first `count` keys.
 #[inline(always)]
-pub(super) fn farthest<S: Simd>(simd: S, keys: &[f64x4<S>], count: usize) -> f64 {
+pub(super) fn farthest<S: Simd>(simd: S, keys: &[Four], count: usize) -> f64 {
     let (whole, rest) = keys.split_at(count / LANES);
     let mut most = f64x4::splat(simd, f64::NEG_INFINITY);
     for keys in whole {
-        most = most.max(*keys);
+        most = most.max(f64x4::simd_from(simd, *keys));
     }
     let most: [f64; LANES] = most.into();
     let mut most = most[0].max(most[1]).max(most[2].max(most[3]));

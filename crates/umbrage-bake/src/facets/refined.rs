@@ -3,7 +3,7 @@
 use super::casters::Casters;
 use super::hidden::Hidden;
 use super::links::Links;
-use super::nearest::{Grid, SUBTEXELS, Spans, farthest, place_of, texels};
+use super::nearest::{Four, Grid, SUBTEXELS, Seen, farthest, place_of, set, texels};
 use super::refinement::Refinement;
 use super::surface::Surface;
 use crate::masks::Masks;
@@ -12,7 +12,7 @@ use glam::{IVec2, UVec2};
 use std::ops::Range;
 use umbrage_depth::{FacetBlock, FacetCells, NO_FACET};
 use umbrage_plane::{Affine, TexelRect, View, vectorized};
-use umbrage_raster::{BIN, Bins, Lines, Shown};
+use umbrage_raster::{BIN, Bins, Lines, Runs, Shown};
 
 const SIDE: usize = BIN as usize;
 const CELLS: usize = SIDE * SIDE;
@@ -55,8 +55,11 @@ pub(super) struct Scratch {
     /// The facets that may reach each part.
     lists: Vec<Vec<u32>>,
     hidden: Hidden,
-    rows: Spans,
-    columns: Spans,
+    rows: Runs,
+    columns: Runs,
+    seen: Seen,
+    /// The keys of the slots of links.
+    keys: Vec<Four>,
     samples: Vec<u32>,
 }
 
@@ -86,7 +89,7 @@ impl Refined<'_> {
         let whole = TexelRect::new(own.min, own.max + step);
         let casters = Casters { gathered: bins.gathered(whole), masks };
         let all = 0..casters.gathered.len() as u32;
-        let Scratch { shown, lists, hidden, rows, columns, samples } = scratch;
+        let Scratch { shown, lists, hidden, rows, columns, seen, keys, samples } = scratch;
         casters.shown(whole, all.clone(), shown);
         let on_map = |texel: IVec2| (origin + texel).cmplt(view.size().as_ivec2()).all();
         if let Some(one) = casters.one(shown) {
@@ -137,7 +140,7 @@ impl Refined<'_> {
             }
             let at_centres = shown.iter().filter(|shown| holds_centre(casters.gathered.bounds(shown.number)));
             let band = casters.gathered.band(region, Lines::Rows, SUBTEXELS);
-            rows.set(&casters, band, PART, |_| true, at_centres);
+            set(simd, rows, band, |_| true, at_centres);
             let centres = Grid { first: min + SUBTEXELS / 2, step: SUBTEXELS, side: PART };
             let [mut near, mut far] = [f64::INFINITY, f64::NEG_INFINITY];
             centres.nearest(
@@ -146,6 +149,7 @@ impl Refined<'_> {
                 &planes,
                 rows,
                 own.min.x + SUBTEXELS / 2,
+                seen,
                 #[inline(always)]
                 |y, facets, keys| {
                     put(y, facets);
@@ -161,7 +165,7 @@ impl Refined<'_> {
             let grid = Grid { first: min + step / 2, step, side };
             let from = if crowded { own.min.x + step / 2 } else { grid.first.x };
             loop {
-                rows.set(&casters, band(Lines::Rows), side, |_| true, &*shown);
+                set(simd, rows, band(Lines::Rows), |_| true, &*shown);
                 let mut is_hidden = true;
                 grid.nearest(
                     simd,
@@ -169,6 +173,7 @@ impl Refined<'_> {
                     &planes,
                     rows,
                     from,
+                    seen,
                     #[inline(always)]
                     |y, facets, keys| {
                         samples[y * side..][..side].copy_from_slice(facets);
@@ -189,12 +194,12 @@ impl Refined<'_> {
                 let stored = links.stored(&blocks[before..]);
                 let wants = |lines: Range<usize>| stored.any(Lines::Columns, lines);
                 loop {
-                    columns.set(&casters, band(Lines::Columns), side, wants, &*shown);
-                    if links.fill(&mut blocks[before..], &stored, [rows, columns], hidden.least) {
+                    set(simd, columns, band(Lines::Columns), wants, &*shown);
+                    if links.fill(&mut blocks[before..], &stored, [rows, columns], keys, hidden.least) {
                         break;
                     }
                     hidden.put_back(shown);
-                    rows.set(&casters, band(Lines::Rows), side, |_| true, &*shown);
+                    set(simd, rows, band(Lines::Rows), |_| true, &*shown);
                 }
             }
         }
