@@ -1,4 +1,4 @@
-use crate::rule::largest;
+use crate::rule::{largest, number};
 use crate::{DepthRule, ROW, Reduction, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
@@ -15,8 +15,8 @@ impl Reduction for First {
 
     #[inline(always)]
     fn add(&self, _pass: u32, cell: &mut f32, key: f32, _front: bool, _facet: &Facet) {
-        // The smaller without a branch, so that several cells become one vector; of NaN and a number, the number.
-        *cell = key.min(*cell);
+        // The smaller without a branch, so that several cells become one vector.
+        *cell = cell.min(number(key));
     }
 
     #[inline(always)]

@@ -1,4 +1,4 @@
-use crate::rule::largest;
+use crate::rule::{largest, number};
 use crate::{DepthRule, ROW, RUN, Reduction, Row, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
@@ -142,9 +142,11 @@ impl Reduction for Midpoint {
 /// The two smallest different keys, in order, once another has come; NaN changes nothing.
 #[inline(always)]
 fn two_smallest(first: f32, second: f32, key: f32) -> (f32, f32) {
-    let nearer = if key < second { key } else { second };
-    let later = if key > first { nearer } else { second };
-    if key < first { (key, first) } else { (first, later) }
+    let key = number(key);
+    let farther = if key > first { key } else { first };
+    let other = if key == first { f32::INFINITY } else { farther };
+    // Minima, not choices: those would be stored with a mask, at which some processors are slow.
+    (first.min(key), second.min(other))
 }
 
 impl DepthRule for Midpoint {

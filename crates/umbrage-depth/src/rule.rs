@@ -81,6 +81,13 @@ impl<C: Copy + Send> Row<C> for [C; ROW] {
     }
 }
 
+/// A key, and +∞ instead of NaN: neither changes a smallest key. Of numbers, minima and maxima are single instructions, and a choice between a cell and
+/// a key by whether that is NaN would be stored with a mask, at which some processors are slow.
+#[inline(always)]
+pub(crate) fn number(key: f32) -> f32 {
+    if key.is_nan() { f32::INFINITY } else { key }
+}
+
 /// The largest of a tile's keys, none of which is NaN, by their rows.
 #[inline(always)]
 pub(crate) fn largest<'a>(rows: impl Iterator<Item = &'a [f32; ROW]>) -> f32 {

@@ -1,4 +1,4 @@
-use crate::rule::largest;
+use crate::rule::{largest, number};
 use crate::{DepthRule, ROW, RUN, Reduction, Row, Stored};
 use glam::DVec2;
 use umbrage_plane::{Decode, Facet};
@@ -75,9 +75,10 @@ impl DepthRule for Second {
     }
 }
 
-/// The two smallest keys, in order, once another has come; NaN changes nothing. Of minima and maxima, so that no branch is made of it.
+/// The two smallest keys, in order, once another has come; NaN changes nothing.
 #[inline(always)]
 fn two_smallest([first, second]: [f32; 2], key: f32) -> [f32; 2] {
-    let other = if key.is_nan() { f32::INFINITY } else { key.max(first) };
-    [key.min(first), other.min(second)]
+    let key = number(key);
+    let (nearer, farther) = if key < first { (key, first) } else { (first, key) };
+    [nearer, if farther < second { farther } else { second }]
 }

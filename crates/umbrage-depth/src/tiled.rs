@@ -29,8 +29,8 @@ impl Extremes {
     fn keep(&mut self, row: &mut [f32]) {
         for ((depth, low), high) in row.iter_mut().zip(&mut self.low).zip(&mut self.high) {
             *depth = no_surface::kept(*depth);
-            *low = if *depth < *low { *depth } else { *low };
-            *high = if *depth > *high { *depth } else { *high };
+            *low = low.min(*depth);
+            *high = high.max(*depth);
         }
     }
 
