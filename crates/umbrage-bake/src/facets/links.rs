@@ -207,7 +207,7 @@ impl<S: Simd> Links<'_, S> {
                         let before = f64x4::simd_from(simd, *nearest);
                         let mut is_there = along.simd_ge(from) & along.simd_lt(to);
                         if masked {
-                            is_there = is_there & key.simd_lt(before);
+                            is_there &= key.simd_lt(before);
                             let place = |lane: usize| texels(first + toward * (gap * (LANES * vector + lane) as i32));
                             let there = self.casters.there(facet, is_there.to_bitmask(), place);
                             is_there = SimdMask::from_bitmask(simd, there);

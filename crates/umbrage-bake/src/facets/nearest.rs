@@ -58,12 +58,16 @@ pub(super) struct Seen {
     facets: Vec<Four>,
 }
 
-/// The points of a square grid: the place of the first and the distance to the next, in 1/256 texel, and the number along a side.
+/// The points of a square grid.
 #[derive(Clone, Copy)]
 pub(super) struct Grid {
+    /// The place of the first and the distance to the next, in 1/256 texel.
     pub first: IVec2,
     pub step: i32,
+    /// How many they are along a side.
     pub side: usize,
+    /// A coordinate along the rows: keys in a row are the key there and what changes from there to each point.
+    pub from: i32,
 }
 
 impl Grid {
@@ -73,8 +77,8 @@ impl Grid {
         self.first + self.step * IVec2::new(x as i32, y as i32)
     }
 
-    /// Calls `row` with the nearest facets at the points of each row, of which `rows` has what is covered, and their keys; [`NO_FACET`] and +∞ where there is none. Keys are those at
-    /// `from`, a coordinate along the rows, and what they change by to a point. Facets must come in the order of their numbers.
+    /// Calls `row` with the nearest facets at the points of each row, of which `rows` has what is covered, and their keys; [`NO_FACET`] and +∞ where there is none.
+    /// Facets must come in the order of their numbers.
     #[inline(always)]
     pub fn nearest<S: Simd>(
         self,
@@ -82,11 +86,10 @@ impl Grid {
         casters: &Casters<'_>,
         planes: &[Affine],
         rows: &Runs,
-        from: i32,
         nearest: &mut Seen,
         mut row: impl FnMut(usize, &[u32], &[Four]),
     ) {
-        let Self { first, step, side } = self;
+        let Self { first, step, side, from } = self;
         let (shift, before) = (step.ilog2(), (first.x - from) / step);
         let vectors = side.div_ceil(LANES);
         let Seen { keys, facets } = nearest;

@@ -141,14 +141,14 @@ impl Refined<'_> {
             let at_centres = shown.iter().filter(|shown| holds_centre(casters.gathered.bounds(shown.number)));
             let band = casters.gathered.band(region, Lines::Rows, SUBTEXELS);
             set(simd, rows, band, |_| true, at_centres);
-            let centres = Grid { first: min + SUBTEXELS / 2, step: SUBTEXELS, side: PART };
+            let centres =
+                Grid { first: min + SUBTEXELS / 2, step: SUBTEXELS, side: PART, from: own.min.x + SUBTEXELS / 2 };
             let [mut near, mut far] = [f64::INFINITY, f64::NEG_INFINITY];
             centres.nearest(
                 simd,
                 &casters,
                 &planes,
                 rows,
-                own.min.x + SUBTEXELS / 2,
                 seen,
                 #[inline(always)]
                 |y, facets, keys| {
@@ -162,8 +162,8 @@ impl Refined<'_> {
             }
             hidden.take(&casters, beyond, shown, [near, far]);
             let band = |lines| casters.gathered.band(beyond, lines, step);
-            let grid = Grid { first: min + step / 2, step, side };
-            let from = if crowded { own.min.x + step / 2 } else { grid.first.x };
+            let from = if crowded { own.min.x } else { min.x } + step / 2;
+            let grid = Grid { first: min + step / 2, step, side, from };
             loop {
                 set(simd, rows, band(Lines::Rows), |_| true, &*shown);
                 let mut is_hidden = true;
@@ -172,7 +172,6 @@ impl Refined<'_> {
                     &casters,
                     &planes,
                     rows,
-                    from,
                     seen,
                     #[inline(always)]
                     |y, facets, keys| {
