@@ -193,8 +193,11 @@ impl<'a> Gathered<'a> {
 /// What facets cover of parallel lines, in runs: consecutive lines of a facet, with one interval on each.
 #[derive(Clone, Debug, Default)]
 pub struct Runs {
-    runs: Vec<Run>,
+    all: Vec<Run>,
     along: Vec<Range<i32>>,
+    /// Room to work in: where the edges of a polygon cross each line, and how many do.
+    crossings: Vec<i32>,
+    numbers: Vec<usize>,
 }
 
 /// Some lines of a facet.
@@ -211,18 +214,18 @@ impl Runs {
     /// this line and of each that follows; empty where it covers nothing. Runs come in the order in which their facets were added; a facet that covers several
     /// parts of a line has several.
     pub fn iter(&self) -> impl Iterator<Item = (u32, usize, &[Range<i32>])> {
-        self.runs.iter().map(|run| (run.facet, run.line as usize, &self.along[run.along.clone()]))
+        self.all.iter().map(|run| (run.facet, run.line as usize, &self.along[run.along.clone()]))
     }
 
     /// Forgets all runs.
     pub fn clear(&mut self) {
-        self.runs.clear();
+        self.all.clear();
         self.along.clear();
     }
 
     #[inline(always)]
     fn end(&mut self, facet: u32, line: usize, start: usize) {
-        self.runs.push(Run { facet, line: line as u32, along: start..self.along.len() });
+        self.all.push(Run { facet, line: line as u32, along: start..self.along.len() });
     }
 }
 
@@ -265,7 +268,7 @@ impl Band<'_> {
                     let (a, b) = (long.crossing(y), short.crossing(y));
                     let from = a.min(b).max(low);
                     let to = a.max(b).min(high).max(from);
-                    let (from, to) = (integers(from), integers(to));
+                    let (from, to) = (integers::<4>(from.into()), integers::<4>(to.into()));
                     for lane in 0..4 {
                         along[lane] = from[lane]..to[lane];
                     }
@@ -281,36 +284,47 @@ impl Band<'_> {
     #[cold]
     fn polygon(&self, facet: u32, corners: &[IVec2], wants: impl Fn(Range<usize>) -> bool, runs: &mut Runs) {
         let Self { lines, grid, low, high, .. } = *self;
-        let mut crossings = vec![Vec::new(); grid.count as usize];
-        for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        let edges = corners.iter().zip(corners.iter().cycle().skip(1)).filter_map(|(a, b)| {
             let (a, b) = (lines.turned(*a), lines.turned(*b));
             let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
-            let lines = grid.before(a.y)..grid.before(b.y);
-            if lines.is_empty() {
-                continue;
-            }
-            let mut edge = Crossed::of(a, b, grid, lines.clone());
-            for line in lines {
-                crossings[line as usize].push(edge.next());
-            }
-        }
-        for crossed in &mut crossings {
-            crossed.sort_unstable();
-        }
-        let several = crossings.iter().map(|crossed| crossed.len() / 2).max().unwrap_or(0);
-        let Some(first) = crossings.iter().position(|crossed| !crossed.is_empty()) else { return };
-        let end = crossings.iter().rposition(|crossed| !crossed.is_empty()).map_or(0, |last| last + 1);
-        if !wants(first..end) {
+            let crossed = grid.before(a.y)..grid.before(b.y);
+            (!crossed.is_empty()).then_some((a, b, crossed))
+        });
+        let ends = edges.clone().map(|(.., crossed)| (crossed.start, crossed.end));
+        let Some((top, bottom)) = ends.reduce(|(top, bottom), (start, end)| (top.min(start), bottom.max(end))) else {
+            return;
+        };
+        let lines = top as usize..bottom as usize;
+        if !wants(lines.clone()) {
             return;
         }
+        // No line crosses an edge twice.
+        let Runs { crossings, numbers, .. } = runs;
+        let most = corners.len();
+        numbers.clear();
+        numbers.resize(lines.len(), 0);
+        crossings.clear();
+        crossings.resize(lines.len() * most, 0);
+        for (a, b, crossed) in edges {
+            let mut edge = Crossed::of(a, b, grid, crossed.clone());
+            for line in crossed {
+                let line = (line - top) as usize;
+                crossings[line * most + numbers[line]] = edge.next();
+                numbers[line] += 1;
+            }
+        }
+        for (crossings, number) in crossings.chunks_exact_mut(most).zip(&*numbers) {
+            crossings[..*number].sort_unstable();
+        }
+        let several = numbers.iter().max().map_or(0, |most| most / 2);
         for pair in 0..several {
             let start = runs.along.len();
-            runs.along.extend(crossings[first..end].iter().map(|crossed| {
-                let [from, to] = crossed.as_chunks().0.get(pair).copied().unwrap_or([low; 2]);
+            runs.along.extend(runs.crossings.chunks_exact(most).zip(&runs.numbers).map(|(crossings, number)| {
+                let [from, to] = crossings[..*number].as_chunks().0.get(pair).copied().unwrap_or([low; 2]);
                 let from = from.max(low);
                 from..to.min(high).max(from)
             }));
-            runs.end(facet, first, start);
+            runs.end(facet, lines.start, start);
         }
     }
 }

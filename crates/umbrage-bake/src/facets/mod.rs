@@ -20,7 +20,6 @@ use glam::{IVec2, UVec2};
 use merged::merged;
 use rayon::prelude::*;
 use refined::{Refined, Scratch};
-use std::collections::HashMap;
 use std::sync::Arc;
 use umbrage_depth::{FacetCells, FacetDepths, FacetMap, FacetRule, FacetTile, First, NO_FACET, Stored};
 use umbrage_plane::{Sampling, TexelRect, View};
@@ -62,11 +61,12 @@ pub fn bake_facets<'a, R: FacetRule>(
             let cells = pass.cells(&bins, tile).0?;
             let origin = (tile * BIN).as_ivec2();
             let mut texels = vec![NO_FACET; CELLS];
-            let (mut planes, mut index) = (Vec::new(), HashMap::new());
+            let mut planes = Vec::new();
             masks.tile(&bins, tile, |facet, coverage| {
+                let mut number = None;
                 each_fragment(view, origin, facet, coverage, |cell, _, key| {
                     if texels[cell] == NO_FACET && key == rule.key(&cells[cell]) {
-                        texels[cell] = *index.entry(facet.triangle).or_insert_with(|| {
+                        texels[cell] = *number.get_or_insert_with(|| {
                             planes.push(facet.plane);
                             planes.len() as u32 - 1
                         });

@@ -93,10 +93,14 @@ impl Grid {
         let (shift, before) = (step.ilog2(), (first.x - from) / step);
         let vectors = side.div_ceil(LANES);
         let Seen { keys, facets } = nearest;
-        keys.clear();
-        facets.clear();
-        keys.resize(side * vectors, [f64::INFINITY; LANES]);
-        facets.resize(side * vectors, [NONE; LANES]);
+        let count = side * vectors;
+        if keys.len() < count {
+            keys.resize(count, [0.0; LANES]);
+            facets.resize(count, [0.0; LANES]);
+        }
+        let (keys, facets) = (&mut keys[..count], &mut facets[..count]);
+        keys.fill([f64::INFINITY; LANES]);
+        facets.fill([NONE; LANES]);
         let (infinite, none) = (f64x4::splat(simd, f64::INFINITY), f64x4::splat(simd, NONE));
         for (facet, line, along) in rows.iter() {
             let plane = planes[facet as usize];
@@ -137,7 +141,7 @@ impl Grid {
         let mut seen = [NO_FACET; MOST_POINTS];
         for (y, (keys, facets)) in keys.chunks_exact(vectors).zip(facets.chunks_exact(vectors)).enumerate() {
             for (seen, facets) in seen.as_chunks_mut::<LANES>().0.iter_mut().zip(facets) {
-                *seen = integers(f64x4::simd_from(simd, *facets)).map(|facet| facet as u32);
+                *seen = integers(*facets).map(|facet| facet as u32);
             }
             row(y, &seen[..side], keys);
         }

@@ -231,12 +231,36 @@ struct Refine<'a> {
 }
 
 impl Refine<'_> {
+    /// Of the texels of a row, a bit for each that differs from one of its `FINE`² samples or from one of the first beyond its right and lower side. Most
+    /// texels do not: all samples are compared, without a branch for each.
+    #[inline(always)]
+    fn differing<const FINE: usize>(&self, row: usize) -> u32 {
+        let texels = (self.first.y as usize + row) * SIDE + self.first.x as usize;
+        let own: &[u32; PART] = self.texels[texels..].first_chunk().expect("a part of a tile");
+        let mut all = [0; PART];
+        for row in row * FINE..=(row + 1) * FINE {
+            let samples = &self.samples[row * (PART * FINE + 1)..][..PART * FINE + 1];
+            for (x, all) in all.iter_mut().enumerate() {
+                *all = samples[x * FINE..=(x + 1) * FINE].iter().fold(*all, |all, seen| all | (seen ^ own[x]));
+            }
+        }
+        (0..).zip(all).fold(0, |bits, (x, differing)| bits | u32::from(differing != 0) << x)
+    }
+
     /// Adds the blocks of those texels of a part for which one plane is not enough.
     #[inline(always)]
     fn part(&self, blocks: &mut Vec<FacetBlock>) {
         let (grid, fine, map) = (self.grid, self.fine, self.surface.view.size());
         let columns = grid.side;
+        let differing: [u32; PART] = std::array::from_fn(|row| match fine {
+            2 => self.differing::<2>(row),
+            4 => self.differing::<4>(row),
+            _ => self.differing::<8>(row),
+        });
         for within in TexelRect::of_size(UVec2::splat(PART as u32)).texels() {
+            if differing[within.y as usize] >> within.x & 1 == 0 {
+                continue;
+            }
             let texel = self.first + within;
             if (self.origin + texel).cmpge(map.as_ivec2()).any() {
                 continue;
@@ -245,13 +269,8 @@ impl Refine<'_> {
             let own = self.texels[texel];
             let first = within.as_usizevec2() * fine;
             let row = |y: usize, count: usize| &self.samples[(first.y + y) * columns + first.x..][..count];
-            // The texel's samples, and the first beyond its right and lower side. Most texels see one facet: all samples are compared
-            // at once, without a branch for each.
+            // The texel's samples, and the first beyond its right and lower side.
             let around = fine + 1;
-            let differing = |y: usize| row(y, around).iter().fold(0, |differing, seen| differing | (seen ^ own));
-            if (0..around).fold(0, |all, y| all | differing(y)) == 0 {
-                continue;
-            }
             let mut width = None;
             let mut agrees = |x: usize, y: usize, seen: u32| {
                 let place = grid.place([first.x + x, first.y + y]);

@@ -2,7 +2,7 @@ use super::packed::{Numbers, Packed};
 use crate::TILE;
 use glam::{DVec2, IVec2, UVec2};
 use half::f16;
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 use umbrage_plane::{Affine, DepthRange};
 
 /// Texels of a tile.
@@ -332,7 +332,7 @@ impl Table {
     fn new(cells: &FacetCells<'_>, near: impl Fn(u32) -> [f32; 3], exact: bool) -> Self {
         let none = cells.planes.len();
         let mut table = Self { index: vec![NO_FACET; none + 1], kept: Vec::new(), near: Vec::new() };
-        let mut same: BTreeMap<[u64; 3], u32> = BTreeMap::new();
+        let mut same: HashMap<[u64; 3], u32> = HashMap::with_capacity(none);
         let mut last = None;
         for &plane in cells.texels.iter().chain(cells.blocks.iter().flat_map(|block| &block.samples)) {
             if last.replace(plane) == Some(plane) {

@@ -5,7 +5,7 @@ use super::voters::Compared;
 use crate::settled::answer;
 use crate::{Probe, Query};
 use fearless_simd::Simd;
-use glam::{DVec2, IVec2};
+use glam::DVec2;
 use umbrage_depth::{DepthMap, FacetSource};
 use umbrage_plane::{Affine, Cells, View};
 
@@ -30,14 +30,6 @@ const HALVINGS: u32 = 3;
 
 /// Beyond this many samples from the origin, and at NaN, no map has a sample.
 pub(super) const FAR: f64 = 1e9;
-
-/// Whole numbers of at most [`FAR`] as integers, in fewer instructions than a conversion that is defined for all numbers: so far from 0, a double's
-/// last bits are the number.
-#[inline(always)]
-pub(super) fn integers(at: DVec2) -> IVec2 {
-    const ROUND: f64 = 1.5 * (1u64 << 52) as f64;
-    IVec2::new((at.x + ROUND).to_bits() as i32, (at.y + ROUND).to_bits() as i32)
-}
 
 impl<'a, F: FacetSource + ?Sized> Asked<'a, F> {
     #[inline(always)]

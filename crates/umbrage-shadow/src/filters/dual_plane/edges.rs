@@ -1,6 +1,5 @@
 //! Where the edge runs between samples that disagree: marching squares over the samples under a region.
 
-use super::asked::integers;
 use super::grid::Grid;
 use super::voters::{LANES, OPEN};
 use crate::Crossing;
@@ -8,6 +7,7 @@ use arrayvec::ArrayVec;
 use fearless_simd::Simd;
 use glam::{DVec2, IVec2, UVec2};
 use umbrage_depth::FacetSource;
+use umbrage_plane::integers;
 
 /// The number of crossings, and of shapes of cells, that are remembered: more than an edge through a region has.
 const REMEMBERED: usize = 16;
@@ -113,7 +113,7 @@ impl<'a, 'b, 'g, F: FacetSource + ?Sized, const N: usize, const CHUNKS: usize> E
         // A place at the region's rim may lie outside by rounding.
         let cell = place.max(DVec2::ZERO).min(self.last).floor();
         let within = place - cell;
-        let whole = integers(cell);
+        let whole = IVec2::from(integers(cell.to_array()));
         let known = self.shape_of[whole.y as usize * self.columns + whole.x as usize];
         let [a, b] = match self.shapes.get(usize::from(known)) {
             Some(shape) => *shape,

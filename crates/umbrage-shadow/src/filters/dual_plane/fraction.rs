@@ -1,6 +1,6 @@
 //! The fraction of a region that is in shadow, by the cheapest test that settles it.
 
-use super::asked::{Asked, FAR, integers};
+use super::asked::{Asked, FAR};
 use super::edges::Edges;
 use super::grid::Grid;
 use super::voters::{LANES, Said, Voters};
@@ -8,7 +8,7 @@ use arrayvec::ArrayVec;
 use fearless_simd::Simd;
 use glam::{DVec2, IVec2};
 use umbrage_depth::{FacetSample, FacetSource};
-use umbrage_plane::TexelRect;
+use umbrage_plane::{TexelRect, integers};
 
 /// Samples along each side of the region that are held; larger regions read the map for each place.
 const AT_HAND: usize = 16;
@@ -28,7 +28,7 @@ impl<F: FacetSource + ?Sized> Asked<'_, F> {
         if !(low.abs().max_element() < FAR && high.abs().max_element() < FAR) {
             return (self.share(false, |_| false), 0);
         }
-        let rect = TexelRect { min: integers(low), max: integers(high) };
+        let rect = TexelRect { min: integers(low.to_array()).into(), max: integers(high.to_array()).into() };
         // Places of the region are half a sample or more within the samples around them, which no rounding bridges.
         let samples = TexelRect::of_size(self.view.size() * self.map.fine());
         let inside =
@@ -106,7 +106,8 @@ impl<F: FacetSource + ?Sized> Asked<'_, F> {
             simd.vectorize(
                 #[inline(always)]
                 || {
-                    let corner = integers((at * f64::from(self.map.fine()) - 0.5).floor());
+                    let corner = (at * f64::from(self.map.fine()) - 0.5).floor();
+                    let corner = IVec2::from(integers(corner.to_array()));
                     let mut samples = [FacetSample::nothing(DVec2::ZERO); LANES];
                     for (k, sample) in samples.iter_mut().enumerate() {
                         *sample = self.map.sample(corner + IVec2::new(k as i32 & 1, k as i32 >> 1));
