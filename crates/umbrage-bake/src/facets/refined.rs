@@ -237,9 +237,9 @@ impl Refine<'_> {
     fn differing<const FINE: usize>(&self, row: usize) -> u32 {
         let texels = (self.first.y as usize + row) * SIDE + self.first.x as usize;
         let own: &[u32; PART] = self.texels[texels..].first_chunk().expect("a part of a tile");
-        let mut all = [0; PART];
+        let (mut all, side) = ([0; PART], PART * FINE + 1);
         for row in row * FINE..=(row + 1) * FINE {
-            let samples = &self.samples[row * (PART * FINE + 1)..][..PART * FINE + 1];
+            let samples = &self.samples[row * side..][..side];
             for (x, all) in all.iter_mut().enumerate() {
                 *all = samples[x * FINE..=(x + 1) * FINE].iter().fold(*all, |all, seen| all | (seen ^ own[x]));
             }
