@@ -15,7 +15,7 @@ impl Reduction for First {
 
     #[inline(always)]
     fn add(&self, _pass: u32, cell: &mut f32, key: f32, _front: bool, _facet: &Facet) {
-        // The smaller without a branch, so that several cells become one vector.
+        // The smaller one without a branch, so that several cells become one vector.
         *cell = cell.min(number(key));
     }
 

@@ -145,7 +145,7 @@ fn two_smallest(first: f32, second: f32, key: f32) -> (f32, f32) {
     let key = number(key);
     let farther = if key > first { key } else { first };
     let other = if key == first { f32::INFINITY } else { farther };
-    // Minima, not choices: those would be stored with a mask, at which some processors are slow.
+    // Minima, because choices would become masked stores, which are slow on some processors.
     (first.min(key), second.min(other))
 }
 

@@ -6,6 +6,6 @@ const NO_SURFACE: f32 = 1e30;
 /// The depth that a map keeps for `depth`: +∞ for no surface. NaN and −∞, which are not depths, count as no surface too.
 #[inline(always)]
 pub(crate) fn kept(depth: f32) -> f32 {
-    // Not a choice between the depth and +∞: where it is written over the depth it would be stored with a mask, at which some processors are slow.
+    // A choice between the depth and +∞, written over the depth, would become a masked store, which is slow on some processors.
     depth.max(if depth < NO_SURFACE && depth > f32::NEG_INFINITY { f32::NEG_INFINITY } else { f32::INFINITY })
 }

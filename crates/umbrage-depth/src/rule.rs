@@ -81,8 +81,8 @@ impl<C: Copy + Send> Row<C> for [C; ROW] {
     }
 }
 
-/// A key, and +∞ instead of NaN: neither changes a smallest key. Of numbers, minima and maxima are single instructions, and a choice between a cell and
-/// a key by whether that is NaN would be stored with a mask, at which some processors are slow.
+/// A key, or +∞ in place of NaN: neither changes a smallest key. The minimum of two numbers is a single instruction, whereas a choice that depends on whether the
+/// key is NaN would become a masked store, which is slow on some processors.
 #[inline(always)]
 pub(crate) fn number(key: f32) -> f32 {
     if key.is_nan() { f32::INFINITY } else { key }

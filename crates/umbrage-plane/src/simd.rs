@@ -11,8 +11,8 @@ pub fn floor_texel<S: Simd>(simd: S, x: f32x16<S>) -> i32x16<S> {
     clamped.floor().to_int()
 }
 
-/// Whole numbers below 2³¹ in size as integers, in fewer instructions than a conversion that is defined for all numbers; of others, including NaN,
-/// unspecified ones.
+/// Whole numbers below 2³¹ in size, as integers. This takes fewer instructions than a conversion that is defined for all numbers: any other number, and NaN,
+/// gives an unspecified integer.
 ///
 /// ```
 /// assert_eq!(umbrage_plane::integers([0.0, -1.0, 16_777_217.0, -2_147_483_647.0]), [0, -1, 16_777_217, -i32::MAX]);

@@ -85,8 +85,8 @@ impl Crossed {
     }
 }
 
-/// Corners within this many 1/256 texels of the map's origin, twice the side of the largest map, are near: the products that say where their edges cross a line
-/// are exact in an `f64`, and a quotient that is no whole number lies so far from any that rounding does not make it one.
+/// How far from the map's origin corners may be for vectors of `f64`, in 1/256 texel, inclusive: twice the side of the largest map. Up to there, the products that say where
+/// an edge crosses a line are exact, and the quotient is rounded to a whole number only where it is one.
 const NEAR: i32 = 1 << 24;
 
 /// An edge from its end that is met first to the other.
@@ -116,7 +116,7 @@ impl<S: Simd> Edge<S> {
         }
     }
 
-    /// The least coordinate along each line that is not before the edge. Of a line that does not cross the edge it means nothing.
+    /// The least coordinate along each line that is not before the edge; meaningless for a line that does not cross the edge.
     #[inline(always)]
     fn crossing(self, y: f64x4<S>) -> f64x4<S> {
         self.x + (self.dx * (y - self.y) / self.dy).ceil()

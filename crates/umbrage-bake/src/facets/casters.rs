@@ -17,10 +17,16 @@ impl Casters<'_> {
         self.gathered.shown(region, among, |facet| self.masks.of(facet).is_none(), shown);
     }
 
+    /// Whether a facet may have holes.
+    #[inline(always)]
+    pub fn is_masked(&self, number: u32) -> bool {
+        self.masks.of(&self.gathered.facet(number)).is_some()
+    }
+
     /// The only facet that is shown, where it covers the whole region.
     pub fn one(&self, shown: &[Shown]) -> Option<u32> {
         match *shown {
-            [Shown { number, covers: true }] if self.masks.of(&self.gathered.facet(number)).is_none() => Some(number),
+            [Shown { number, covers: true }] if !self.is_masked(number) => Some(number),
             _ => None,
         }
     }

@@ -182,7 +182,7 @@ impl<S: Simd> Links<'_, S> {
         let infinite = f64x4::splat(simd, f64::INFINITY);
         for (facet, first, along) in runs.iter() {
             let plane = self.surface.planes[facet as usize];
-            let masked = self.casters.masks.of(&self.casters.gathered.facet(facet)).is_some();
+            let masked = self.casters.is_masked(facet);
             // No link of the last line, which lies beyond the part, is stored.
             for ((line, stored), along) in stored.iter().enumerate().skip(first).zip(along) {
                 // Those that begin before its end and end after its start.

@@ -104,7 +104,7 @@ impl Grid {
         let (infinite, none) = (f64x4::splat(simd, f64::INFINITY), f64x4::splat(simd, NONE));
         for (facet, line, along) in rows.iter() {
             let plane = planes[facet as usize];
-            let masked = casters.masks.of(&casters.gathered.facet(facet)).is_some();
+            let masked = casters.is_masked(facet);
             let dx = plane.dx * (f64::from(step) / f64::from(SUBTEXELS));
             // Numbers of 32 bits are exact as floats, and chosen by the same masks as keys.
             let own = f64x4::splat(simd, f64::from(facet));
@@ -131,8 +131,8 @@ impl Grid {
                         let there = casters.there(facet, is_nearer.to_bitmask(), place);
                         is_nearer = SimdMask::from_bitmask(simd, there);
                     }
-                    // A minimum and a maximum: choices would be stored with a mask, at which some processors are slow. A later facet
-                    // has the greater number.
+                    // A minimum and a maximum, because choices would become masked stores, which are slow on some processors. A later
+                    // facet has the greater number.
                     *keys = nearest.min(is_nearer.select(key, infinite)).into();
                     *facets = f64x4::simd_from(simd, *facets).max(is_nearer.select(own, none)).into();
                 }

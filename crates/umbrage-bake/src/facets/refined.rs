@@ -231,8 +231,8 @@ struct Refine<'a> {
 }
 
 impl Refine<'_> {
-    /// Of the texels of a row, a bit for each that differs from one of its `FINE`² samples or from one of the first beyond its right and lower side. Most
-    /// texels do not: all samples are compared, without a branch for each.
+    /// One bit for each texel of a row, set where the texel differs from one of its `FINE`² samples or from one of the first beyond its right and lower
+    /// side. Most do not differ, so all samples are compared without a branch for each.
     #[inline(always)]
     fn differing<const FINE: usize>(&self, row: usize) -> u32 {
         let texels = (self.first.y as usize + row) * SIDE + self.first.x as usize;

@@ -6,7 +6,7 @@ use std::ops::Range;
 use umbrage_plane::{Facet, TexelRect, View, vectorized};
 use umbrage_raster::{BIN, Bins, Cull, Lines, Runs, Shown, Triangle};
 
-/// By this factor, corners a texel from the middle come as far from it as two of the largest maps are wide.
+/// Moves a corner that lies one texel from the middle of the view to 65,536 texels from it, twice the width of the largest map.
 const FAR: DVec3 = DVec3::new(65536.0, 65536.0, 1.0);
 
 /// Random triangles in front of a small perspective view: ordinary ones, slivers, some that are cut by the near limit, and some with corners that are far outside.
@@ -185,7 +185,7 @@ fn whoever_is_not_shown_is_nearest_nowhere() {
                 }
                 found
             };
-            // Whoever crosses some line that is wanted is given with all of its lines.
+            // A facet that crosses a wanted line is given with all of its lines.
             for shown in &with_holes {
                 let all = runs(&[*shown], &|_| true);
                 let some = runs(&[*shown], &|mut lines| lines.any(|line| line % 5 == 1));
