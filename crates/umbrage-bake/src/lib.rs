@@ -46,6 +46,7 @@
 #![warn(missing_debug_implementations)]
 
 mod caster;
+mod chunks;
 mod deep;
 mod facets;
 mod mask;

@@ -18,8 +18,8 @@ pub type Film<'a> = &'a (dyn Fn(&MaskPlace) -> Vec3 + Sync);
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MaskPlace {
-    /// Index of the triangle in the order in which they were given to the bake, 0-based; of a bake over several moments among those of its
-    /// own moment.
+    /// Index of the triangle in the order in which they were given to the bake, 0-based and modulo 2³²; of a bake over several
+    /// moments among those of its own moment.
     pub triangle: u32,
     /// Id of the object that it belongs to.
     pub object: u32,

@@ -38,6 +38,8 @@ pub struct Masks<'a> {
     /// From triangles to `masked`, as far as the last that has a mask or a film; [`UNMASKED`] for those that have neither.
     index: Vec<u32>,
     given: usize,
+    /// How many casters were given and forgotten before the first of these.
+    first: usize,
 }
 
 const UNMASKED: u32 = u32::MAX;
@@ -45,7 +47,16 @@ const UNMASKED: u32 = u32::MAX;
 impl<'a> Masks<'a> {
     /// None yet; they will be evaluated at places of a view's map.
     pub fn new(view: &View) -> Self {
-        Self { view: *view, masked: Vec::new(), index: Vec::new(), given: 0 }
+        Self { view: *view, masked: Vec::new(), index: Vec::new(), given: 0, first: 0 }
+    }
+
+    /// Forgets the casters that it was given, for bins that are [refilled](Bins::refill): the next caster's facet is the first of the bins again. Masks
+    /// go on being called with [indices](MaskPlace::triangle) among all casters that were ever given.
+    pub fn advance(&mut self) {
+        self.first += self.given;
+        self.masked.clear();
+        self.index.clear();
+        self.given = 0;
     }
 
     /// Takes one more caster, in the order of the bins, and gives its triangle.
@@ -81,7 +92,7 @@ impl<'a> Masks<'a> {
     pub(crate) fn film(&self, facet: &Facet) -> Option<impl Fn(DVec2) -> Vec3 + use<'_, 'a>> {
         let known = self.known(facet)?;
         let (film, facet) = (known.film?, *facet);
-        Some(move |at| within(film(&known.place(&self.view, &facet, at))))
+        Some(move |at| within(film(&self.place(known, &facet, at))))
     }
 
     /// [`Bins::tile`] of bins of the same view, without the samples where masks say that nothing is there.
@@ -126,7 +137,14 @@ impl<'a> Masks<'a> {
 
     /// Whether anything of a facet is at a place of the map, in texels.
     pub(crate) fn is_there(&self, masked: &Masked<'_>, facet: &Facet, at: DVec2) -> bool {
-        masked.mask.is_none_or(|mask| mask(&masked.place(&self.view, facet, at)))
+        masked.mask.is_none_or(|mask| mask(&self.place(masked, facet, at)))
+    }
+
+    /// The place of a facet that is seen at a place of the map, in texels.
+    fn place(&self, masked: &Masked<'_>, facet: &Facet, at: DVec2) -> MaskPlace {
+        let weights = masked.weights(ray(&self.view, at));
+        let triangle = (self.first as u32).wrapping_add(facet.triangle);
+        MaskPlace { triangle, object: facet.object, weights, uv: mix(masked.uvs, weights) }
     }
 }
 
@@ -158,12 +176,6 @@ impl<'a> Masked<'a> {
         let (first, b, c) = (places(view, eye)[0], edge(1), edge(2));
         // Cramer's rule: the ray r meets first + s·b + t·c where s = r·(first × c) / r·(c × b) and t = r·(b × first) / r·(c × b).
         Self { mask, film, uvs, second: first.cross(c), third: b.cross(first), whole: c.cross(b) }
-    }
-
-    /// The place of its facet that is seen at a place of the map, in texels.
-    fn place(&self, view: &View, &Facet { triangle, object, .. }: &Facet, at: DVec2) -> MaskPlace {
-        let weights = self.weights(ray(view, at));
-        MaskPlace { triangle, object, weights, uv: mix(self.uvs, weights) }
     }
 
     fn weights(&self, ray: DVec3) -> DVec3 {

@@ -1,5 +1,5 @@
 use crate::masks::Masks;
-use crate::pass1::Pass;
+use crate::pass1::{Pass, stored, without_cells};
 use crate::rays::{places, ray};
 use crate::{Baked, Caster};
 use glam::{DMat3, DVec2, DVec3};
@@ -26,7 +26,9 @@ pub fn bake_by_normals<'a, R: DepthRule>(
     let mut masks = Masks::new(view);
     let triangles = casters.iter().map(|caster| masks.note(*caster));
     let bins = Bins::new(view, TexelRect::of_size(view.size()), Cull::None, triangles);
-    Pass { view, fine: view, rule, masks: &masks, front: Some(front) }.run(&bins, Cull::None)
+    let pass = Pass { view, fine: view, rule, masks: &masks, front: Some(front) };
+    let (tiles, fragments) = pass.finish(&bins, without_cells(view));
+    Baked::of(view, tiles, stored(rule, Cull::None), bins.stats(), fragments)
 }
 
 /// A vector whose product with [`ray`] has the sign of N·L at each place of a triangle; `None` for one that is edge-on or

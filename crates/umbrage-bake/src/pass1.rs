@@ -1,4 +1,5 @@
 use crate::Caster;
+use crate::chunks::each_chunk;
 use crate::masks::Masks;
 use glam::{DVec2, IVec2, UVec2};
 use rayon::prelude::*;
@@ -19,11 +20,21 @@ pub struct Baked {
     pub fragments: u64,
 }
 
+impl Baked {
+    pub(crate) fn of(view: &View, tiles: Vec<Option<Tile>>, stored: Stored, stats: Stats, fragments: u64) -> Self {
+        Self { map: Arc::new(Tiled::from_tiles(*view, tiles).with_stored(stored)), stats, fragments }
+    }
+}
+
 /// Pass 1: draws the triangles from a light and stores one depth per texel by `rule`.
 ///
 /// Works tile by tile: a tile's cells are made when its first fragment comes, and leave resolved, with their minimum and
 /// maximum. Tiles that nobody touches are never allocated. What is nearer than the near plane is stored at the
 /// near plane. The result does not depend on the number of threads.
+///
+/// Triangles are taken and drawn in chunks of 65,536, or of one for each 16 texels of the map if that is more, so that any number of them
+/// takes no more memory than the map. A rule of several passes, such as [`Midpoint`](umbrage_depth::Midpoint), needs all of them again, and holds them
+/// until the map is done. [`bake_streamed`](crate::bake_streamed) bounds the memory of the map as well.
 ///
 /// `casters` are [`Triangle`](umbrage_raster::Triangle)s or [`Caster`]s.
 pub fn bake<'a, R: DepthRule>(
@@ -32,10 +43,7 @@ pub fn bake<'a, R: DepthRule>(
     rule: &R,
     cull: Cull,
 ) -> Baked {
-    let mut masks = Masks::new(view);
-    let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
-    let bins = Bins::new(view, TexelRect::of_size(view.size()), cull, triangles);
-    Pass { view, fine: view, rule, masks: &masks, front: BY_WINDING }.run(&bins, cull)
+    draw(view, view, casters, rule, cull)
 }
 
 /// [`bake`] with `axis` × `axis` samples per texel, all of whose fragments count for the texel: what *hits* it, not what lies at one place
@@ -54,10 +62,46 @@ pub fn bake_multi<'a, R: DepthRule>(
     axis: u32,
 ) -> Result<Baked, ViewError> {
     let fine = view.with_size(view.size().saturating_mul(UVec2::splat(axis)))?;
-    let mut masks = Masks::new(&fine);
-    let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
-    let bins = Bins::new(&fine, TexelRect::of_size(fine.size()), cull, triangles);
-    Ok(Pass { view, fine: &fine, rule, masks: &masks, front: BY_WINDING }.run(&bins, cull))
+    Ok(draw(view, &fine, casters, rule, cull))
+}
+
+/// Triangles that are drawn before the next ones are taken, at least; they take four megabytes.
+const CHUNK: usize = 1 << 16;
+/// The least number of texels for each triangle of a chunk: depths and triangles then take the same memory.
+const TEXELS_PER_TRIANGLE: usize = 16;
+
+/// Draws a map with the samples of `fine`.
+///
+/// By chunks, as triangles that the next ones overwrite take little memory, and a system gives new memory slowly: a million small triangles are drawn in
+/// half the time. A rule of several passes needs all of them again in each.
+fn draw<'a, R: DepthRule>(
+    view: &View,
+    fine: &View,
+    casters: impl IntoIterator<Item: Into<Caster<'a>>>,
+    rule: &R,
+    cull: Cull,
+) -> Baked {
+    let texels = view.size().x as usize * view.size().y as usize;
+    let most = if R::PASSES == 1 { CHUNK.max(texels / TEXELS_PER_TRIANGLE) } else { usize::MAX };
+    let (mut cells, mut tiles) = (without_cells(view), Vec::new());
+    let (mut stats, mut fragments) = (Stats::default(), 0);
+    each_chunk(fine, TexelRect::of_size(fine.size()), cull, most, casters, |bins, masks, last| {
+        let pass = Pass { view, fine, rule, masks, front: BY_WINDING };
+        stats += bins.stats();
+        if last {
+            let (made, offered) = pass.finish(bins, std::mem::take(&mut cells));
+            tiles = made;
+            fragments += offered;
+        } else {
+            fragments += pass.draw_rows(0, bins, 0, &mut cells);
+        }
+    });
+    Baked::of(view, tiles, stored(rule, cull), stats, fragments)
+}
+
+/// The tiles of a map in which nothing was drawn yet.
+pub(crate) fn without_cells<T: Clone>(view: &View) -> Vec<Option<T>> {
+    vec![None; view.size().map(|side| side.div_ceil(BIN)).element_product() as usize]
 }
 
 /// That a facet's own [`Facing`] says which side of it is seen, all over it.
@@ -109,21 +153,21 @@ pub(crate) type Cells<R> = Box<[<R as Reduction>::Row; ROW]>;
 const FEW: u32 = 4;
 
 impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
-    /// Reduces and resolves what was drawn with `fine` and `cull`.
-    pub fn run(&self, bins: &Bins, cull: Cull) -> Baked {
-        let grid = self.view.size().map(|side| side.div_ceil(BIN));
-        let (made, fragments): (Vec<Option<Tile>>, Vec<u64>) = (0..grid.x * grid.y)
+    /// The tiles of a map once the last triangles are drawn over what earlier ones left in all its cells, and the number of fragments.
+    pub fn finish(&self, bins: &Bins, cells: Vec<Option<Cells<R>>>) -> (Vec<Option<Tile>>, u64) {
+        let across = self.view.size().x.div_ceil(BIN);
+        let (tiles, fragments): (_, Vec<u64>) = cells
             .into_par_iter()
-            .map(|index| {
-                let tile = UVec2::new(index % grid.x, index / grid.x);
+            .enumerate()
+            .map(|(index, mut cells)| {
+                let tile = UVec2::new(index as u32 % across, index as u32 / across);
                 vectorized!(_ => {
-                    let (cells, fragments) = self.draw(bins, tile);
+                    let fragments = self.draw(bins, tile, &mut cells);
                     (cells.and_then(|cells| self.resolve(&cells, tile)), fragments)
                 })
             })
             .unzip();
-        let map = Arc::new(Tiled::from_tiles(*self.view, made).with_stored(stored(self.rule, cull)));
-        Baked { map, stats: bins.stats(), fragments: fragments.iter().sum() }
+        (tiles, fragments.iter().sum())
     }
 
     /// The tile that cells become; `None` where no surface is among them.
@@ -154,24 +198,38 @@ impl<R: DepthRule, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
 impl<R: Reduction, F: Fn(&Facet, DVec2) -> bool + Sync> Pass<'_, R, F> {
     /// A tile's cells after all fragments, `None` where there were none, and the number of fragments.
     pub fn cells(&self, bins: &Bins, tile: UVec2) -> (Option<Box<[R::Cell; CELLS]>>, u64) {
-        let (cells, fragments) = vectorized!(_ => self.draw(bins, tile));
+        let mut cells = None;
+        let fragments = vectorized!(_ => self.draw(bins, tile, &mut cells));
         let each = |cells: Box<[R::Row; ROW]>| Box::new(std::array::from_fn(|i| cells[i / ROW].get(i % ROW)));
         (cells.map(each), fragments)
     }
 
+    /// One pass over what bins hold of whole rows of tiles, whose cells are given, from row `top` down; the number of its fragments.
+    pub fn draw_rows(&self, pass: u32, bins: &Bins, top: u32, cells: &mut [Option<Cells<R>>]) -> u64 {
+        let across = self.view.size().x.div_ceil(BIN);
+        let tiles = cells.par_iter_mut().enumerate();
+        tiles
+            .map(|(index, cells)| {
+                let tile = UVec2::new(index as u32 % across, top + index as u32 / across);
+                if pass > 0 && !self.wants_more(cells.as_ref()) {
+                    return 0;
+                }
+                vectorized!(_ => self.draw_once(pass, bins, tile, cells))
+            })
+            .sum()
+    }
+
+    /// All passes over what bins hold of a tile; the number of fragments of the first.
     #[inline(always)]
-    fn draw(&self, bins: &Bins, tile: UVec2) -> (Option<Cells<R>>, u64) {
-        let (mut cells, mut fragments) = (None, 0);
-        for pass in 0..R::PASSES {
-            if pass > 0 && !self.wants_more(cells.as_ref()) {
+    fn draw(&self, bins: &Bins, tile: UVec2, cells: &mut Option<Cells<R>>) -> u64 {
+        let fragments = self.draw_once(0, bins, tile, cells);
+        for pass in 1..R::PASSES {
+            if !self.wants_more(cells.as_ref()) {
                 break;
             }
-            let offered = self.draw_once(pass, bins, tile, &mut cells);
-            if pass == 0 {
-                fragments = offered;
-            }
+            self.draw_once(pass, bins, tile, cells);
         }
-        (cells, fragments)
+        fragments
     }
 
     /// Whether a pass after the first may change a depth of a tile.

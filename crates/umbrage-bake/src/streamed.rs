@@ -1,5 +1,6 @@
 //! Pass 1 of more triangles, or of a larger map, than memory holds.
 
+use crate::chunks::each_chunk;
 use crate::masks::Masks;
 use crate::pass1::{BY_WINDING, Cells, Pass};
 use crate::{Caster, Streaming};
@@ -7,7 +8,7 @@ use glam::{IVec2, UVec2};
 use rayon::prelude::*;
 use umbrage_depth::{DepthRule, Tile};
 use umbrage_plane::{TexelRect, View, vectorized};
-use umbrage_raster::{BIN, Bins, Cull, Stats};
+use umbrage_raster::{BIN, Cull, Stats};
 
 /// What became of the triangles of [`bake_streamed`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,7 +81,7 @@ where
     if rows < grid.y {
         // A triangle counts once, however many bands it reaches.
         let whole = TexelRect::of_size(view.size());
-        each_chunk(view, whole, cull, streaming.triangles, casters(), |bins, _| streamed.stats += bins.stats());
+        each_chunk(view, whole, cull, streaming.triangles, casters(), |bins, _, _| streamed.stats += bins.stats());
     }
     for top in (0..grid.y).step_by(rows as usize) {
         let band = band(top);
@@ -89,8 +90,8 @@ where
             if pass > 0 && !band.wants_more(&cells) {
                 break;
             }
-            each_chunk(view, band.window(), cull, streaming.triangles, casters(), |bins, masks| {
-                let fragments = band.draw(pass, bins, masks, &mut cells);
+            each_chunk(view, band.window(), cull, streaming.triangles, casters(), |bins, masks, _| {
+                let fragments = band.pass(masks).draw_rows(pass, bins, band.top, &mut cells);
                 if pass == 0 {
                     streamed.fragments += fragments;
                     streamed.chunks += 1;
@@ -107,27 +108,6 @@ where
         }
     }
     Ok(streamed)
-}
-
-/// Sorts so many triangles at a time into tiles, and calls `each` with their bins and masks; once at least.
-fn each_chunk<'a>(
-    view: &View,
-    window: TexelRect,
-    cull: Cull,
-    most: usize,
-    casters: impl IntoIterator<Item: Into<Caster<'a>>>,
-    mut each: impl FnMut(&Bins, &Masks<'a>),
-) {
-    let mut casters = casters.into_iter().fuse().peekable();
-    loop {
-        let mut masks = Masks::new(view);
-        let triangles = casters.by_ref().take(most.max(1)).map(|caster| masks.note(caster.into()));
-        let bins = Bins::new(view, window, cull, triangles);
-        each(&bins, &masks);
-        if casters.peek().is_none() {
-            return;
-        }
-    }
 }
 
 /// Whole rows of tiles of a map that is drawn.
@@ -156,21 +136,6 @@ impl<R: DepthRule> Band<'_, R> {
 
     fn pass<'p>(&'p self, masks: &'p Masks<'p>) -> Pass<'p, R, fn(&umbrage_plane::Facet, glam::DVec2) -> bool> {
         Pass { view: self.view, fine: self.view, rule: self.rule, masks, front: BY_WINDING }
-    }
-
-    /// Offers a chunk of triangles to all cells; the number of fragments.
-    fn draw(&self, pass: u32, bins: &Bins, masks: &Masks<'_>, cells: &mut [Option<Cells<R>>]) -> u64 {
-        let drawing = self.pass(masks);
-        let tiles = cells.par_iter_mut().enumerate();
-        tiles
-            .map(|(index, cells)| {
-                let tile = self.tile(index);
-                if pass > 0 && !drawing.wants_more(cells.as_ref()) {
-                    return 0;
-                }
-                vectorized!(_ => drawing.draw_once(pass, bins, tile, cells))
-            })
-            .sum()
     }
 
     fn wants_more(&self, cells: &[Option<Cells<R>>]) -> bool {

@@ -1,25 +1,23 @@
 //! Triangles sorted into tiles.
 
-use crate::blocks::{block_of, blocks, number, place};
+use crate::blocks::{block_of, fill, number, place};
 use crate::coverage::{Coverage, Samples};
 use crate::setup::{Block, NOWHERE, Patch, Piece, Reach, SEVERAL, SUBTEXELS, Setup, bounds};
 use crate::{BIN, Cull, Stats, Triangle};
 use glam::{IVec2, UVec2};
-use umbrage_plane::{Facet, Sampling, TexelRect, View};
+use umbrage_plane::{Facet, TexelRect, View};
 
 const SIDE: i32 = BIN as i32;
 
 /// Triangles sorted into the tiles of a view.
 ///
-/// Tile (i, j) holds texels 32 i ≤ x < 32 (i + 1), 32 j ≤ y < 32 (j + 1), whatever the window. About 64 bytes for each triangle that is kept, and 4 for each tile it reaches.
+/// Tile (i, j) holds texels 32 i ≤ x < 32 (i + 1), 32 j ≤ y < 32 (j + 1), whatever the window. About 68 bytes for each triangle that is kept, and 4 for each tile it reaches.
 #[derive(Clone, Debug)]
 pub struct Bins {
-    sampling: Sampling,
-    reach: Reach,
-    window: TexelRect,
+    setup: Setup,
     tiles: UVec2,
     blocks: Vec<Block>,
-    /// Where each tile's list begins in `lists`; one entry more than tiles.
+    /// Where each tile's list begins in `lists`, and where the last one ends.
     starts: Vec<usize>,
     /// Numbers of pieces, ascending within a tile.
     lists: Vec<u32>,
@@ -57,24 +55,27 @@ impl Bins {
         triangles: impl IntoIterator<Item = Triangle>,
     ) -> Self {
         let window = TexelRect::of_size(view.size()).intersect(window);
-        let setup = Setup { view, window, cull, reach };
-        let blocks = blocks(&setup, triangles.into_iter());
-        let mut stats = Stats::default();
-        for block in &blocks {
-            stats += block.stats;
-        }
         let mut bins = Self {
-            sampling: view.sampling(),
-            reach,
-            window,
+            setup: Setup { view: *view, window, cull, reach },
             tiles: view.size().map(|side| side.div_ceil(BIN)),
-            blocks,
+            blocks: Vec::new(),
             starts: Vec::new(),
             lists: Vec::new(),
-            stats,
+            stats: Stats::default(),
         };
-        bins.sort();
+        bins.refill(triangles);
         bins
+    }
+
+    /// Takes other triangles in place of its own, with the same view, window and culling and in the same memory: what [`Bins::new`] makes of
+    /// them, without asking the system for memory again. For more triangles than are held at a time.
+    pub fn refill(&mut self, triangles: impl IntoIterator<Item = Triangle>) {
+        fill(&mut self.blocks, &self.setup, triangles.into_iter());
+        self.stats = Stats::default();
+        for block in &self.blocks {
+            self.stats += block.stats;
+        }
+        self.sort();
     }
 
     /// Number of tiles across and down: the view's size over [`BIN`], rounded up.
@@ -92,7 +93,7 @@ impl Bins {
         if list.is_empty() {
             return;
         }
-        let Some(samples) = Samples::of(tile, self.window, self.sampling) else { return };
+        let Some(samples) = Samples::of(tile, self.setup.window, self.setup.view.sampling()) else { return };
         let mut coverage = Coverage::NOTHING;
         for &number in list {
             let (piece, corners) = self.piece(number);
@@ -141,7 +142,7 @@ impl Bins {
     }
 
     pub(crate) fn window(&self) -> TexelRect {
-        self.window
+        self.setup.window
     }
 
     /// A piece by its number, and its corners.
@@ -164,23 +165,23 @@ impl Bins {
 
     /// Makes the lists: counts, adds up, fills.
     fn sort(&mut self) {
+        let (mut starts, mut lists) = (std::mem::take(&mut self.starts), std::mem::take(&mut self.lists));
         let tiles = self.tiles.x as usize * self.tiles.y as usize;
-        let mut starts = vec![0_usize; tiles + 1];
-        self.each_home(|_, tile| starts[tile + 1] += 1);
+        // A tile's count stands two places behind it. Once they are added up, the list of each begins at the place behind it, which moves on
+        // with each entry, and so becomes the place where the next one begins.
+        starts.clear();
+        starts.resize(tiles + 2, 0);
+        self.each_home(|_, tile| starts[tile + 2] += 1);
         for tile in 0..tiles {
-            starts[tile + 1] += starts[tile];
+            starts[tile + 2] += starts[tile + 1];
         }
-        let mut lists = vec![0; starts[tiles]];
-        let mut ends = starts.clone();
+        lists.clear();
+        lists.resize(starts[tiles + 1], 0);
         self.each_home(|number, tile| {
-            lists[ends[tile]] = number;
-            ends[tile] += 1;
+            lists[starts[tile + 1]] = number;
+            starts[tile + 1] += 1;
         });
-        for block in &mut self.blocks {
-            block.homes = Vec::new();
-        }
-        self.starts = starts;
-        self.lists = lists;
+        (self.starts, self.lists) = (starts, lists);
     }
 
     /// Calls `each` with the number of every piece, in their order, and the index of every tile that it may cover.
@@ -200,7 +201,7 @@ impl Bins {
 
     /// Calls `each` with the index of every tile that a polygon may cover.
     fn each_tile(&self, corners: &[IVec2], mut each: impl FnMut(usize)) {
-        let texels = self.reach.texels(bounds(corners)).intersect(self.window);
+        let texels = self.setup.reach.texels(bounds(corners)).intersect(self.setup.window);
         let (first, last) = (texels.min.map(|v| v / SIDE), texels.max.map(|v| (v - 1) / SIDE));
         let narrow = last.x - first.x < 2 || last.y == first.y;
         for row in first.y..=last.y {

@@ -25,46 +25,51 @@ pub(crate) fn place(number: u32) -> (usize, usize) {
     ((number >> SHIFT) as usize, number as usize & (SIZE - 1))
 }
 
-/// Sets up all triangles, in their order. They are taken from the iterator on the calling thread; blocks do not depend on the number
-/// of threads.
-pub(crate) fn blocks(setup: &Setup<'_>, triangles: impl Iterator<Item = Triangle>) -> Vec<Block> {
+/// Sets up all triangles, in their order, in place of those that `blocks` held, and in their memory. They are taken from the iterator on the
+/// calling thread; blocks do not depend on the number of threads.
+pub(crate) fn fill(blocks: &mut Vec<Block>, setup: &Setup, triangles: impl Iterator<Item = Triangle>) {
     let mut triangles = triangles.fuse();
-    let mut blocks = Vec::new();
     let threads = rayon::current_num_threads();
-    let mut buffer = Vec::with_capacity(SIZE);
+    let mut buffers = vec![Vec::new(); if threads == 1 { 1 } else { threads * WAITING }];
+    let mut done = 0;
     loop {
-        take(&mut triangles, &mut buffer);
+        take(&mut triangles, &mut buffers[0]);
         // What fits in one block is not worth waking a thread.
-        if threads == 1 || buffer.len() < SIZE {
-            blocks.push(setup.block(number(blocks.len(), 0), &buffer));
-            if buffer.len() < SIZE {
-                return blocks;
+        let alone = threads == 1 || buffers[0].len() < SIZE;
+        let wanted = done + if alone { 1 } else { buffers.len() };
+        if blocks.len() < wanted {
+            blocks.resize_with(wanted, Block::default);
+        }
+        if alone {
+            setup.fill(&mut blocks[done], number(done, 0), &buffers[0]);
+            done += 1;
+            if buffers[0].len() < SIZE {
+                break;
             }
             continue;
         }
-        let done = blocks.len();
-        blocks.resize_with(done + threads * WAITING, Block::default);
-        let mut taken = 0;
+        let first = done;
         rayon::in_place_scope(|scope| {
-            for (index, block) in (done..).zip(&mut blocks[done..]) {
-                if taken > 0 {
-                    take(&mut triangles, &mut buffer);
+            for (block, buffer) in blocks[first..].iter_mut().zip(&mut buffers) {
+                if done > first {
+                    take(&mut triangles, buffer);
                 }
                 if buffer.is_empty() {
                     return;
                 }
-                taken += 1;
-                let triangles = std::mem::take(&mut buffer);
-                scope.spawn(move |_| *block = setup.block(number(index, 0), &triangles));
+                let index = number(done, 0);
+                scope.spawn(move |_| setup.fill(block, index, buffer));
+                done += 1;
             }
         });
-        blocks.truncate(done + taken);
     }
+    blocks.truncate(done);
 }
 
 /// Fills a buffer with the next triangles.
 fn take(triangles: &mut impl Iterator<Item = Triangle>, buffer: &mut Vec<Triangle>) {
     buffer.clear();
+    buffer.reserve(SIZE);
     // Not `extend`: an iterator of iterators is run through faster from within.
     triangles.take(SIZE).for_each(|triangle| buffer.push(triangle));
 }

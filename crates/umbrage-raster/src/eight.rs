@@ -32,7 +32,7 @@ impl Making<'_> {
     #[expect(clippy::match_same_arms, reason = "compiled once for each projection, on which no loop then branches")]
     #[inline(always)]
     pub fn add_all(&mut self, triangles: &[Triangle]) {
-        let view = *self.setup.view;
+        let view = self.setup.view;
         match (view.is_perspective(), view.kind()) {
             (true, Kind::Axial | Kind::Radial) => self.add_eights(&view, triangles),
             (false, Kind::Axial | Kind::Radial) => self.add_eights(&view, triangles),

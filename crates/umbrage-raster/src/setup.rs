@@ -97,6 +97,16 @@ pub(crate) struct Block {
 }
 
 impl Block {
+    /// A block without pieces, in the memory of this one, which is left without any.
+    fn emptied(&mut self) -> Self {
+        let mut block = std::mem::take(self);
+        block.pieces.clear();
+        block.corners.clear();
+        block.homes.clear();
+        block.stats = Stats::default();
+        block
+    }
+
     /// The snapped corners of one of its pieces.
     #[inline(always)]
     pub fn corners<'a>(&'a self, piece: &'a Piece) -> &'a [IVec2] {
@@ -140,26 +150,25 @@ enum Skip {
 }
 
 /// How a view's triangles are set up.
-#[derive(Clone, Copy)]
-pub(crate) struct Setup<'a> {
-    pub view: &'a View,
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Setup {
+    pub view: View,
     pub window: TexelRect,
     pub cull: Cull,
     pub reach: Reach,
 }
 
-impl Setup<'_> {
-    /// Sets up consecutive triangles, the index of the first of which is `first`.
-    pub fn block(&self, first: u32, triangles: &[Triangle]) -> Block {
-        let mut making = Making { setup: self, first, clipper: Clipper::default(), block: Block::default() };
+impl Setup {
+    /// Sets up consecutive triangles, the index of the first of which is `first`, in place of those that a block holds.
+    pub fn fill(&self, block: &mut Block, first: u32, triangles: &[Triangle]) {
+        let mut making = Making { setup: self, first, clipper: Clipper::default(), block: block.emptied() };
         making.block.pieces.reserve(triangles.len());
         making.block.homes.reserve(triangles.len());
         vectorized!(_ => making.add_all(triangles));
-        let mut block = making.block;
+        *block = making.block;
         if block.pieces.len() < triangles.len() / 2 {
             block.pieces.shrink_to_fit();
         }
-        block
     }
 
     pub fn tiles_across(&self) -> u32 {
@@ -212,7 +221,7 @@ pub(crate) struct Whole {
 
 /// A block that is being made.
 pub(crate) struct Making<'a> {
-    pub setup: &'a Setup<'a>,
+    pub setup: &'a Setup,
     first: u32,
     clipper: Clipper,
     block: Block,
@@ -287,7 +296,7 @@ impl Making<'_> {
     }
 
     fn piece(&mut self, triangle: &Triangle) -> Result<(), Skip> {
-        let view = self.setup.view;
+        let view = &self.setup.view;
         let world = triangle.corners;
         if !world.iter().all(|corner| corner.abs().cmplt(DVec3::splat(FARTHEST)).all()) {
             return Err(Skip::NotFinite);

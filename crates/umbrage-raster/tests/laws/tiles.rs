@@ -145,6 +145,31 @@ fn triangles_are_set_up_the_same_alone_among_others_and_by_any_thread() {
 }
 
 #[test]
+fn bins_that_are_refilled_are_those_of_the_new_triangles_alone() {
+    // Every fifth begins behind the eye and is cut; more, fewer and none, over several blocks and less than one.
+    let mut many = ball(Vec3::ZERO, &[2.0, 1.4, 2.2], 33, 47, Quat::from_rotation_z(0.4));
+    many.iter_mut().step_by(5).for_each(|triangle| triangle.corners[0] = DVec3::new(1.0, 2.2, 9.0));
+    let fills = [&many[..], &many[..1500], &[], &bumpy(Quat::IDENTITY), &many[700..], &many[..1024]];
+    let view = camera(UVec2::new(193, 131));
+    for threads in [1, 2] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let (mut refilled, mut clipped) = (bins(&view, many[..100].iter().copied()), 0);
+            for (index, triangles) in fills.iter().enumerate() {
+                refilled.refill(triangles.iter().copied());
+                let new = bins(&view, triangles.iter().copied());
+                clipped += new.stats().clipped;
+                assert_eq!(refilled.stats(), new.stats(), "fill {index}");
+                assert!(refilled.facets().eq(new.facets()), "fill {index}");
+                let count = new.tiles().element_product();
+                assert!((0..count).all(|at| tile(&refilled, at) == tile(&new, at)), "fill {index}");
+            }
+            assert!(clipped > 500, "{clipped} triangles are cut");
+        });
+    }
+}
+
+#[test]
 fn runs_are_the_fragments_eight_at_a_time() {
     for sampling in [Sampling::Centre, Sampling::Jittered { seed: 77 }] {
         let view = camera(UVec2::new(193, 131)).with_sampling(sampling);
