@@ -1,6 +1,7 @@
 //! Pass 1 for what a recipe stores.
 
 use crate::values::{Rule, Values};
+use std::iter;
 use std::sync::Arc;
 use umbrage_bake::{
     Baked, Caster, bake, bake_by_normals, bake_deep, bake_facets, bake_multi, bake_refined, mix_moments,
@@ -9,8 +10,25 @@ use umbrage_depth::{BackFace, DepthRule, First, Map, Second, Tiled};
 use umbrage_plane::View;
 use umbrage_raster::{Cull, Stats};
 
-/// The casters of one moment, whose masks live for `'m`.
-pub(crate) type Moment<'a, 'm> = Box<dyn Iterator<Item = Caster<'m>> + 'a>;
+/// The [casters of one moment](moment), whose masks live for `'m`.
+pub(crate) type Moment<'a, 'm> = iter::Flatten<Box<dyn Iterator<Item = Vec<Caster<'m>>> + 'a>>;
+
+/// Casters that are taken from behind a `dyn` at once.
+const AT_ONCE: usize = 256;
+
+/// The casters of one moment, of one type whatever gives them. They come many at a time: a call through a table for each of them would take as long as
+/// the rest of what is done with it.
+pub(crate) fn moment<'a, 'm: 'a>(casters: impl Iterator<Item = Caster<'m>> + 'a) -> Moment<'a, 'm> {
+    let mut casters = casters.fuse();
+    let chunks = iter::from_fn(move || {
+        let mut chunk = Vec::with_capacity(AT_ONCE);
+        // Not `extend`: an iterator of iterators is run through faster from within.
+        casters.by_ref().take(AT_ONCE).for_each(|caster| chunk.push(caster));
+        (!chunk.is_empty()).then_some(chunk)
+    });
+    let chunks: Box<dyn Iterator<Item = _> + 'a> = Box::new(chunks);
+    chunks.flatten()
+}
 
 impl Values {
     /// `moments` are at evenly spread times: deep maps hold their mean, and of rules that keep one surface each texel sees one of them.

@@ -1,4 +1,4 @@
-use crate::bake::Moment;
+use crate::bake::moment;
 use crate::values::{Values, Window};
 use crate::{PresetName, RecipeError, kind};
 use umbrage_bake::Caster;
@@ -185,8 +185,8 @@ impl Recipe {
         M: IntoIterator<Item: Into<Caster<'m>>>,
     {
         // Whatever triangles come as, all rules over them are compiled once, here.
-        let casters = |moment: M| -> Moment<'_, 'm> { Box::new(moment.into_iter().map(Into::into)) };
-        self.values.bake(view, &mut moments.into_iter().map(casters))
+        let mut moments = moments.into_iter().map(|casters| moment(casters.into_iter().map(Into::into)));
+        self.values.bake(view, &mut moments)
     }
 
     /// The algorithm over a map.
