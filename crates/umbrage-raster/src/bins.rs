@@ -37,14 +37,15 @@ impl Bins {
         Self::within_reach(Reach::Samples(view.sampling()), view, window, cull, triangles)
     }
 
-    /// [`Bins::new`] for finer grids too ([`Bins::spans`]): it keeps what lies between the texels' samples as well.
+    /// [`Bins::new`] for finer grids too ([`Bins::spans`]): it keeps what lies between the texels' samples as well. What reaches a tile includes what
+    /// reaches no farther than one texel beyond its right and its lower side.
     pub fn for_spans(
         view: &View,
         window: TexelRect,
         cull: Cull,
         triangles: impl IntoIterator<Item = Triangle>,
     ) -> Self {
-        Self::within_reach(Reach::Anywhere, view, window, cull, triangles)
+        Self::within_reach(Reach::Around, view, window, cull, triangles)
     }
 
     fn within_reach(
@@ -141,6 +142,11 @@ impl Bins {
         self.stats
     }
 
+    /// How far beyond a tile's right and lower side what is in its list may be, in 1/256 texel.
+    pub(crate) fn beyond(&self) -> i32 {
+        self.setup.reach.beyond()
+    }
+
     pub(crate) fn window(&self) -> TexelRect {
         self.setup.window
     }
@@ -204,11 +210,12 @@ impl Bins {
         let texels = self.setup.reach.texels(bounds(corners)).intersect(self.setup.window);
         let (first, last) = (texels.min.map(|v| v / SIDE), texels.max.map(|v| (v - 1) / SIDE));
         let narrow = last.x - first.x < 2 || last.y == first.y;
+        let beyond = self.beyond();
         for row in first.y..=last.y {
             let (mut from, mut to) = (first.x, last.x);
             if !narrow {
-                let (left, right) = extent(corners, row * SIDE * SUBTEXELS, (row + 1) * SIDE * SUBTEXELS);
-                from = from.max(left.div_euclid(SIDE * SUBTEXELS));
+                let (left, right) = extent(corners, row * SIDE * SUBTEXELS, (row + 1) * SIDE * SUBTEXELS + beyond);
+                from = from.max(left.saturating_sub(beyond).div_euclid(SIDE * SUBTEXELS));
                 to = to.min(right.div_euclid(SIDE * SUBTEXELS));
             }
             let start = row as usize * self.tiles.x as usize;

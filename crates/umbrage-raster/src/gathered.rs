@@ -55,22 +55,27 @@ impl Bins {
             let outline = Outline { piece, corners, low, high };
             outline.touches(region).then_some(outline)
         };
-        let tiles = TexelRect::new(from, to + 1);
-        // Of a tile that lies in the region almost all reaches it; of one beside it almost nothing.
-        let is_whole =
-            |tile: IVec2| (tile * side).cmpge(region.min).all() && ((tile + 1) * side).cmple(region.max).all();
-        let mut numbers: Vec<u32> = Vec::new();
-        for tile in tiles.texels() {
-            let list = self.list(tile.as_uvec2());
-            if is_whole(tile) {
-                numbers.extend_from_slice(list);
-            } else {
-                numbers.extend(list.iter().filter(|number| outline(**number).is_some()));
+        let merged;
+        let numbers = if region.max.cmple((from + 1) * side + self.beyond()).all() {
+            self.list(from.as_uvec2())
+        } else {
+            // Of a tile that lies in the region almost all reaches it; of one beside it almost nothing.
+            let is_whole =
+                |tile: IVec2| (tile * side).cmpge(region.min).all() && ((tile + 1) * side).cmple(region.max).all();
+            let mut numbers: Vec<u32> = Vec::new();
+            for tile in TexelRect::new(from, to + 1).texels() {
+                let list = self.list(tile.as_uvec2());
+                if is_whole(tile) {
+                    numbers.extend_from_slice(list);
+                } else {
+                    numbers.extend(list.iter().filter(|number| outline(**number).is_some()));
+                }
             }
-        }
-        merge(&mut numbers);
+            merged = merge(numbers);
+            &merged
+        };
         let mut outlines = Vec::with_capacity(numbers.len());
-        outlines.extend(numbers.into_iter().filter_map(outline));
+        outlines.extend(numbers.iter().filter_map(|number| outline(*number)));
         Gathered { bins: self, outlines }
     }
 }
@@ -167,10 +172,11 @@ impl Gathered<'_> {
 }
 
 /// Sorts a few sorted lists that follow one another, and leaves out what stands in several.
-fn merge(numbers: &mut Vec<u32>) {
+fn merge(mut numbers: Vec<u32>) -> Vec<u32> {
     #[expect(clippy::stable_sort_primitive, reason = "a stable sort merges what is sorted")]
     numbers.sort();
     numbers.dedup();
+    numbers
 }
 
 /// More than what a plane's keys may be off by roundings, however they are computed, at places from the map's upper left corner to `most`, in texels:

@@ -123,8 +123,9 @@ impl Block {
 pub(crate) enum Reach {
     /// Those that may cover its sample.
     Samples(Sampling),
-    /// Those that may cover any place in it.
-    Anywhere,
+    /// Those that may cover any place in it, or in the texels beside it, below it and beside that one: what a finer grid of a tile is compared
+    /// with then stands in the tile's own list.
+    Around,
 }
 
 impl Reach {
@@ -135,7 +136,17 @@ impl Reach {
         match self {
             // The samples are at 256·i + 128; ⌈(v − 128) / 256⌉ is the first that is not before v.
             Self::Samples(Sampling::Centre) => TexelRect::new((low + 127) >> 8, (high + 127) >> 8),
-            Self::Samples(Sampling::Jittered { .. }) | Self::Anywhere => TexelRect::new(low >> 8, (high + 255) >> 8),
+            Self::Samples(Sampling::Jittered { .. }) => TexelRect::new(low >> 8, (high + 255) >> 8),
+            Self::Around => TexelRect::new((low - self.beyond()) >> 8, (high + 255) >> 8),
+        }
+    }
+
+    /// How far beyond a texel's right and lower side a polygon may be and still be of use to it, in 1/256 texel.
+    #[inline(always)]
+    pub fn beyond(self) -> i32 {
+        match self {
+            Self::Samples(_) => 0,
+            Self::Around => SUBTEXELS,
         }
     }
 }

@@ -160,16 +160,18 @@ impl Mesh {
     pub fn open_edges(&self) -> usize {
         let mut numbers = HashMap::with_capacity(self.positions.len());
         let mut number = |at: &Vec3| {
-            let next = numbers.len();
+            let next = numbers.len() as u32;
             *numbers.entry(position_bits(*at)).or_insert(next)
         };
-        let places: Vec<usize> = self.positions.iter().map(&mut number).collect();
-        // Each edge as its lower place, and its higher one with the direction of the triangle.
+        let places: Vec<u32> = self.positions.iter().map(&mut number).collect();
+        // Each edge as its lower place, and its higher one with the direction of the triangle. Of large meshes there are very many, so that small numbers
+        // save time.
         let edges = || {
             self.triangles.iter().flat_map(|corners| {
                 let [a, b, c] = corners.map(|vertex| places[vertex as usize]);
-                [[a, b], [b, c], [c, a]]
-                    .map(|[from, to]| if from <= to { (from, (to, false)) } else { (to, (from, true)) })
+                [[a, b], [b, c], [c, a]].map(|[from, to]| {
+                    if from <= to { (from as usize, (to, false)) } else { (to as usize, (from, true)) }
+                })
             })
         };
         // All edges of a place stand together: sorting them by place alone needs no comparison.

@@ -89,6 +89,9 @@ impl Refined<'_> {
         let whole = TexelRect::new(own.min, own.max + step);
         let casters = Casters { gathered: bins.gathered(whole), masks };
         let all = 0..casters.gathered.len() as u32;
+        if !all.clone().any(|number| casters.gathered.bounds(number).0.cmplt(own.max).all()) {
+            return None;
+        }
         let Scratch { shown, lists, hidden, rows, columns, seen, keys, samples } = scratch;
         casters.shown(whole, all.clone(), shown);
         let on_map = |texel: IVec2| (origin + texel).cmplt(view.size().as_ivec2()).all();
