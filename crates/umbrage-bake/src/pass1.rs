@@ -32,8 +32,7 @@ impl Baked {
 /// maximum. Tiles that nobody touches are never allocated. What is nearer than the near plane is stored at the
 /// near plane. The result does not depend on the number of threads.
 ///
-/// Triangles are taken and drawn in chunks of 65,536, or of one for each 16 texels of the map if that is more, so that any number of them
-/// takes no more memory than the map. A rule of several passes, such as [`Midpoint`](umbrage_depth::Midpoint), needs all of them again, and holds them
+/// Triangles are taken and drawn in chunks of 65,536, or of four for each tile of the map if that is more, so that any number of them takes little memory. A rule of several passes, such as [`Midpoint`](umbrage_depth::Midpoint), needs all of them again, and holds them
 /// until the map is done. [`bake_streamed`](crate::bake_streamed) bounds the memory of the map as well.
 ///
 /// `casters` are [`Triangle`](umbrage_raster::Triangle)s or [`Caster`]s.
@@ -67,8 +66,8 @@ pub fn bake_multi<'a, R: DepthRule>(
 
 /// Triangles that are drawn before the next ones are taken, at least; they take four megabytes.
 const CHUNK: usize = 1 << 16;
-/// The least number of texels for each triangle of a chunk: depths and triangles then take the same memory.
-const TEXELS_PER_TRIANGLE: usize = 16;
+/// Triangles for each tile of the map that are drawn together, at least: fewer take less time than a walk over all tiles.
+const PER_TILE: usize = 4;
 
 /// Draws a map with the samples of `fine`.
 ///
@@ -81,9 +80,8 @@ fn draw<'a, R: DepthRule>(
     rule: &R,
     cull: Cull,
 ) -> Baked {
-    let texels = view.size().x as usize * view.size().y as usize;
-    let most = if R::PASSES == 1 { CHUNK.max(texels / TEXELS_PER_TRIANGLE) } else { usize::MAX };
     let (mut cells, mut tiles) = (without_cells(view), Vec::new());
+    let most = if R::PASSES == 1 { CHUNK.max(PER_TILE * cells.len()) } else { usize::MAX };
     let (mut stats, mut fragments) = (Stats::default(), 0);
     each_chunk(fine, TexelRect::of_size(fine.size()), cull, most, casters, |bins, masks, last| {
         let pass = Pass { view, fine, rule, masks, front: BY_WINDING };

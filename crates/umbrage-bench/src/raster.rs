@@ -43,10 +43,13 @@ impl Workload {
         Self::new(name, side, &straight(side), mesh, covered)
     }
 
-    /// Its triangles set up and sorted into tiles, and nothing drawn.
+    /// Its triangles set up and sorted into tiles in chunks as [`bake`] takes them, and nothing drawn; the last chunk.
     pub fn binned(&self) -> Bins {
-        let whole = TexelRect::of_size(self.view.size());
-        Bins::new(&self.view, whole, Cull::None, self.casters.iter().copied())
+        let mut bins = Bins::new(&self.view, TexelRect::of_size(self.view.size()), Cull::None, []);
+        for chunk in self.casters.chunks((4 * bins.tiles().element_product() as usize).max(1 << 16)) {
+            bins.refill(chunk.iter().copied());
+        }
+        bins
     }
 
     /// Eight layers, the farthest first.

@@ -177,15 +177,17 @@ impl Bins {
         // with each entry, and so becomes the place where the next one begins.
         starts.clear();
         starts.resize(tiles + 2, 0);
-        self.each_home(|_, tile| starts[tile + 2] += 1);
+        let counts = &mut starts[2..];
+        self.each_home(|_, tile| counts[tile] += 1);
         for tile in 0..tiles {
             starts[tile + 2] += starts[tile + 1];
         }
         lists.clear();
         lists.resize(starts[tiles + 1], 0);
+        let begins = &mut starts[1..];
         self.each_home(|number, tile| {
-            lists[starts[tile + 1]] = number;
-            starts[tile + 1] += 1;
+            lists[begins[tile]] = number;
+            begins[tile] += 1;
         });
         (self.starts, self.lists) = (starts, lists);
     }
