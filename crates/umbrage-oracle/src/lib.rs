@@ -29,6 +29,7 @@ mod faults;
 mod geometry;
 pub mod judge;
 pub mod metrics;
+mod place;
 mod plan;
 pub mod predict;
 mod ray;

@@ -1,5 +1,5 @@
 use crate::Geometry;
-use crate::geometry::{Place, Shot};
+use crate::place::{Place, Shot};
 use glam::{DVec2, DVec3, DVec4, Vec3};
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
