@@ -32,7 +32,8 @@ impl Baked {
 /// maximum. Tiles that nobody touches are never allocated. What is nearer than the near plane is stored at the
 /// near plane. The result does not depend on the number of threads.
 ///
-/// Triangles are taken and drawn in chunks of 65,536, or of four for each tile of the map if that is more, so that any number of them takes little memory. A rule of several passes, such as [`Midpoint`](umbrage_depth::Midpoint), needs all of them again, and holds them
+/// Triangles are taken and drawn in chunks of 65,536, or of sixteen for each tile of the map if that is more, so that any number of them
+/// takes little memory. A rule of several passes, such as [`Midpoint`](umbrage_depth::Midpoint), needs all of them again, and holds them
 /// until the map is done. [`bake_streamed`](crate::bake_streamed) bounds the memory of the map as well.
 ///
 /// `casters` are [`Triangle`](umbrage_raster::Triangle)s or [`Caster`]s.
@@ -66,13 +67,13 @@ pub fn bake_multi<'a, R: DepthRule>(
 
 /// Triangles that are drawn before the next ones are taken, at least; they take four megabytes.
 const CHUNK: usize = 1 << 16;
-/// Triangles for each tile of the map that are drawn together, at least: fewer take less time than a walk over all tiles.
-const PER_TILE: usize = 4;
+/// Triangles for each tile of the map that are drawn together, at least: fewer take less time than one more walk over the map.
+const PER_TILE: usize = 16;
 
 /// Draws a map with the samples of `fine`.
 ///
-/// By chunks, as triangles that the next ones overwrite take little memory, and a system gives new memory slowly: a million small triangles are drawn in
-/// half the time. A rule of several passes needs all of them again in each.
+/// By chunks, as triangles that the next ones overwrite take little memory, and a system gives new memory slowly: a million small triangles
+/// are drawn in half the time. A rule of several passes needs all of them again in each.
 fn draw<'a, R: DepthRule>(
     view: &View,
     fine: &View,

@@ -46,7 +46,7 @@ impl Workload {
     /// Its triangles set up and sorted into tiles in chunks as [`bake`] takes them, and nothing drawn; the last chunk.
     pub fn binned(&self) -> Bins {
         let mut bins = Bins::new(&self.view, TexelRect::of_size(self.view.size()), Cull::None, []);
-        for chunk in self.casters.chunks((4 * bins.tiles().element_product() as usize).max(1 << 16)) {
+        for chunk in self.casters.chunks((16 * bins.tiles().element_product() as usize).max(1 << 16)) {
             bins.refill(chunk.iter().copied());
         }
         bins

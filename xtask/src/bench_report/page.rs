@@ -25,6 +25,7 @@ fn heading(facts: &Facts, columns: &[Column]) -> Vec<String> {
         format!("Processor: {}. Compiler: {}.", facts.processor, facts.rustc),
         "One thread, processor time, medians of interleaved runs in one process; rows of two threads are wall time."
             .into(),
+        "Freed memory stays with the process, as peers keep their buffers: no run but the first pays for the system's pages.".into(),
     ];
     for Column { flags, report } in columns {
         lines.push(format!(
