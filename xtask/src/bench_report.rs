@@ -127,7 +127,7 @@ fn write(root: &Path, out: Option<PathBuf>, name: &str, table: &str, chart: &str
     Ok(())
 }
 
-/// What makes glibc keep memory that is freed. By itself it gives some of it back, depending on what else was allocated before, and asks for it anew in the
+/// What makes glibc keep memory that is freed. By itself it gives some of it back, depending on what else was allocated before, and needs it again in the
 /// next run: a quarter of a bake of a large map is spent so, or none of it. Peers draw into buffers that they keep.
 const KEPT: [(&str, &str); 2] = [("MALLOC_TRIM_THRESHOLD_", "1073741824"), ("MALLOC_MMAP_THRESHOLD_", "33554432")];
 
