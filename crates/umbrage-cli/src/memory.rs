@@ -14,8 +14,8 @@ const PER_FILE_BYTE: u64 = 8;
 /// Bytes for each sample of a picture, and for each of its pixels.
 const PER_SAMPLE: u64 = 64;
 const PER_PIXEL: u64 = 512;
-/// Bytes for each triangle.
-const PER_TRIANGLE: u64 = 1024;
+/// Bytes for each triangle: about 100 are taken by maps, and 350 by rays.
+const PER_TRIANGLE: u64 = 512;
 /// Bytes for each texel of each map.
 const PER_TEXEL: u64 = 64;
 /// Bytes for each texel of the finished maps of an area light; only one of them at a time is being made.
@@ -39,7 +39,7 @@ pub struct Need {
 }
 
 impl Need {
-    /// 64 MiB + 8 × the file + 512 bytes for each pixel + 64 for each sample + 1024 for each triangle + 64 for each texel of a map
+    /// 64 MiB + 8 × the file + 512 bytes for each pixel + 64 for each sample + 512 for each triangle + 64 for each texel of a map
     /// + 16 for each texel of all maps of an area light + 128 for each pixel of each result that is kept beside truth.
     pub fn bytes(&self) -> u64 {
         let pixels = u64::from(self.picture.x) * u64::from(self.picture.y);
