@@ -2,11 +2,12 @@
 
 use crate::Triangle;
 use crate::setup::{Block, Setup};
+use std::sync::mpsc;
 
 /// log₂ of the triangles of a block: few enough for a processor's own cache.
 const SHIFT: u32 = 10;
 const SIZE: usize = 1 << SHIFT;
-/// Blocks that wait for each thread at most.
+/// Blocks that wait for each other thread at most.
 const WAITING: usize = 4;
 
 /// The block of a triangle, by its index.
@@ -26,44 +27,50 @@ pub(crate) fn place(number: u32) -> (usize, usize) {
 }
 
 /// Sets up all triangles, in their order, in place of those that `blocks` held, and in their memory. They are taken from the iterator on the
-/// calling thread; blocks do not depend on the number of threads.
+/// calling thread, which sets blocks up as well when enough of them wait for the others; blocks do not depend on the number of threads.
 pub(crate) fn fill(blocks: &mut Vec<Block>, setup: &Setup, triangles: impl Iterator<Item = Triangle>) {
     let mut triangles = triangles.fuse();
-    let threads = rayon::current_num_threads();
-    let mut buffers = vec![Vec::new(); if threads == 1 { 1 } else { threads * WAITING }];
-    let mut done = 0;
-    loop {
-        take(&mut triangles, &mut buffers[0]);
-        // What fits in one block is not worth waking a thread.
-        let alone = threads == 1 || buffers[0].len() < SIZE;
-        let wanted = done + if alone { 1 } else { buffers.len() };
-        if blocks.len() < wanted {
-            blocks.resize_with(wanted, Block::default);
-        }
-        if alone {
-            setup.fill(&mut blocks[done], number(done, 0), &buffers[0]);
-            done += 1;
-            if buffers[0].len() < SIZE {
+    let most = (rayon::current_num_threads() - 1) * WAITING;
+    let (finished, results) = mpsc::channel();
+    let (mut buffers, mut waiting, mut count) = (Vec::new(), 0, 0);
+    rayon::in_place_scope(|scope| {
+        loop {
+            let mut buffer = buffers.pop().unwrap_or_default();
+            take(&mut triangles, &mut buffer);
+            let (index, last) = (count, buffer.len() < SIZE);
+            if blocks.len() == index {
+                blocks.push(Block::default());
+            }
+            let mut block = std::mem::take(&mut blocks[index]);
+            for (index, block, buffer) in results.try_iter() {
+                blocks[index] = block;
+                buffers.push(buffer);
+                waiting -= 1;
+            }
+            // What fits in one block is not worth waking a thread.
+            if last || waiting == most {
+                setup.fill(&mut block, number(index, 0), &buffer);
+                blocks[index] = block;
+                buffers.push(buffer);
+            } else {
+                let finished = finished.clone();
+                scope.spawn(move |_| {
+                    setup.fill(&mut block, number(index, 0), &buffer);
+                    // The receiver outlives the scope.
+                    let _ = finished.send((index, block, buffer));
+                });
+                waiting += 1;
+            }
+            count += 1;
+            if last {
                 break;
             }
-            continue;
         }
-        let first = done;
-        rayon::in_place_scope(|scope| {
-            for (block, buffer) in blocks[first..].iter_mut().zip(&mut buffers) {
-                if done > first {
-                    take(&mut triangles, buffer);
-                }
-                if buffer.is_empty() {
-                    return;
-                }
-                let index = number(done, 0);
-                scope.spawn(move |_| setup.fill(block, index, buffer));
-                done += 1;
-            }
-        });
+    });
+    for (index, block, _) in results.try_iter() {
+        blocks[index] = block;
     }
-    blocks.truncate(done);
+    blocks.truncate(count);
 }
 
 /// Fills a buffer with the next triangles.
