@@ -2,7 +2,8 @@
 
 use crate::blocks::{block_of, fill, number, place};
 use crate::coverage::{Coverage, Samples};
-use crate::setup::{Block, NOWHERE, Patch, Piece, Reach, SEVERAL, SUBTEXELS, Setup, bounds};
+use crate::piece::{Block, NOWHERE, Patch, Piece, SEVERAL};
+use crate::setup::{Reach, SUBTEXELS, Setup, bounds};
 use crate::{BIN, Cull, Stats, Triangle};
 use glam::{IVec2, UVec2};
 use umbrage_plane::{Facet, TexelRect, View};
@@ -133,7 +134,7 @@ impl Bins {
     /// The facet of the triangle with that index, 0-based among all given; `None` when it was skipped, culled or out of sight.
     pub fn facet(&self, triangle: u32) -> Option<Facet> {
         let pieces = &self.blocks.get(block_of(triangle))?.pieces;
-        let index = pieces.binary_search_by_key(&triangle, Piece::triangle).ok()?;
+        let index = pieces.binary_search_by_key(&triangle, |piece| piece.triangle).ok()?;
         Some(pieces[index].facet())
     }
 

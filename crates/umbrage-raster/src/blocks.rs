@@ -1,7 +1,8 @@
 //! Triangles set up in blocks, by several threads.
 
 use crate::Triangle;
-use crate::setup::{Block, Setup};
+use crate::piece::Block;
+use crate::setup::Setup;
 use std::sync::mpsc;
 
 /// log₂ of the triangles of a block: few enough for a processor's own cache.

@@ -5,7 +5,8 @@
 //! of its two ends alone, so two polygons that share an edge never both claim a sample on it, and never both leave it.
 
 use crate::BIN;
-use crate::setup::{PATCH, Patch, Reach, SUBTEXELS, bounds};
+use crate::piece::{PATCH, Patch};
+use crate::setup::{Reach, SUBTEXELS, bounds};
 use glam::{IVec2, UVec2};
 use std::ops::Range;
 use umbrage_plane::{Sampling, TexelRect};

@@ -5,7 +5,8 @@
 
 use crate::Triangle;
 use crate::clip::{GUARD_TEXELS, NEAR_LIMIT};
-use crate::setup::{FARTHEST, Making, Patch, Reach, STEP, Whole, nearer, rounded};
+use crate::piece::Patch;
+use crate::setup::{FARTHEST, Making, Reach, STEP, Whole, nearer, rounded};
 use crate::small::Small;
 use glam::{DVec3, IVec2};
 use umbrage_plane::{Affine, Kind, LANES, Lanes3, Sampling, View};

@@ -1,6 +1,7 @@
 //! The facets that may reach a region, found once for several questions.
 
-use crate::setup::{Piece, SUBTEXELS, bounds};
+use crate::piece::Piece;
+use crate::setup::{SUBTEXELS, bounds};
 use crate::{BIN, Bins};
 use glam::{DVec2, IVec2};
 use umbrage_plane::{Affine, Facet, TexelRect};
@@ -117,7 +118,7 @@ impl Gathered<'_> {
     #[inline(always)]
     pub fn least_key(&self, number: u32, region: TexelRect) -> f64 {
         let Outline { piece, low, high, .. } = &self.outlines[number as usize];
-        let plane = piece.plane();
+        let plane = piece.plane;
         let low = low.max(region.min).as_dvec2() / f64::from(SUBTEXELS);
         let high = high.min(region.max).as_dvec2() / f64::from(SUBTEXELS);
         let (across, down) = ((plane.dx * low.x).min(plane.dx * high.x), (plane.dy * low.y).min(plane.dy * high.y));

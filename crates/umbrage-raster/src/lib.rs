@@ -46,6 +46,7 @@ mod coverage;
 mod eight;
 mod fragments;
 mod gathered;
+mod piece;
 mod setup;
 mod small;
 mod spans;

@@ -1,7 +1,8 @@
 //! What small triangles cover, found when they are set up.
 
 use crate::BIN;
-use crate::setup::{NOWHERE, PATCH, Patch, SUBTEXELS};
+use crate::piece::{NOWHERE, PATCH, Patch};
+use crate::setup::SUBTEXELS;
 use umbrage_plane::TexelRect;
 
 /// What is known of a triangle once it is set up, if it is small.
