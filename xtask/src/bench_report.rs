@@ -127,9 +127,10 @@ fn write(root: &Path, out: Option<PathBuf>, name: &str, table: &str, chart: &str
     Ok(())
 }
 
-/// What makes glibc keep memory that is freed. By itself it gives some of it back, depending on what else was allocated before, and needs it again in the
-/// next run: a quarter of a bake of a large map is spent so, or none of it. Peers draw into buffers that they keep.
-const KEPT: [(&str, &str); 2] = [("MALLOC_TRIM_THRESHOLD_", "1073741824"), ("MALLOC_MMAP_THRESHOLD_", "33554432")];
+/// What makes glibc keep memory that is freed, that of threads too. By itself it gives some of it back, depending on what else was allocated before, and
+/// needs it again in the next run: a quarter of a bake of a large map is spent so, or none of it. Peers draw into buffers that they keep.
+const KEPT: [(&str, &str); 3] =
+    [("MALLOC_TOP_PAD_", "67108864"), ("MALLOC_TRIM_THRESHOLD_", "1073741824"), ("MALLOC_MMAP_THRESHOLD_", "33554432")];
 
 /// What the program prints.
 fn measured(root: &Path, flags: Flags, args: &[&str], settings: &[(&str, &str)]) -> anyhow::Result<String> {
