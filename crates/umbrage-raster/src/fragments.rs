@@ -64,12 +64,10 @@ fn runs(
     while touched != 0 {
         let run = touched.trailing_zeros() as usize / RUN;
         touched &= !(0xff << (run * RUN));
-        // Down the rows, so that what depends on the column alone is worked out once.
-        for (row, bits) in (usize::from(coverage.first)..).zip(rows) {
-            let covered = bits >> (run * RUN) & 0xff;
-            if covered == 0 {
-                continue;
-            }
+        // Down the rows, so that what depends on the column alone is worked out once. They are searched and not gone through: for AVX-512 a compiler
+        // would take sixteen of them at a time, by gathering and scattering, in twice the time.
+        let mut of_run = (usize::from(coverage.first)..).zip(rows.iter().map(|bits| bits >> (run * RUN) & 0xff));
+        while let Some((row, covered)) = of_run.find(|(_, covered)| *covered != 0) {
             let mut keys = [0.0; RUN];
             for (lane, key) in (0..).zip(&mut keys) {
                 let texel = origin + IVec2::new((run * RUN) as i32 + lane, row as i32);
