@@ -16,8 +16,8 @@ pub(crate) type Moment<'a, 'm> = iter::Flatten<Box<dyn Iterator<Item = Vec<Caste
 /// Casters that are taken from behind a `dyn` at once.
 const AT_ONCE: usize = 256;
 
-/// The casters of one moment, of one type whatever gives them. They come many at a time: a call through a table for each of them would take as long as
-/// the rest of what is done with it.
+/// The casters of one moment, of one type whatever gives them. They come many at a time: with a call through a table for each of them, bakes of a million
+/// triangles took a fifth longer.
 pub(crate) fn moment<'a, 'm: 'a>(casters: impl Iterator<Item = Caster<'m>> + 'a) -> Moment<'a, 'm> {
     let mut casters = casters.fuse();
     let chunks = iter::from_fn(move || {

@@ -142,6 +142,24 @@ fn a_region_is_a_part_of_the_whole() {
     }
 }
 
+/// A tile's own list holds what reaches up to a texel beyond its right and its lower side, so that no other list is looked at.
+#[test]
+fn a_tile_and_what_lies_just_beyond_it_are_a_part_of_the_whole() {
+    for seed in 0..20 {
+        let (view, triangles) = soup(seed);
+        let bins = Bins::for_spans(&view, TexelRect::of_size(view.size()), Cull::None, triangles);
+        let whole = TexelRect::new(IVec2::ZERO, view.size().as_ivec2() * 256);
+        let all = covered(&bins, whole, Lines::Rows, 64);
+        for tile in TexelRect::of_size(bins.tiles()).texels() {
+            let min = tile * (BIN as i32 * 256);
+            let region = TexelRect::new(min, (min + BIN as i32 * 256 + 256).min(whole.max));
+            let part = covered(&bins, region, Lines::Rows, 64);
+            let inside = all.iter().filter(|((x, y), _)| region.contains(IVec2::new(*x, *y)));
+            assert!(part.iter().eq(inside), "seed {seed}, tile {tile}");
+        }
+    }
+}
+
 /// Of what is gathered once for a region, those that are shown in a part of it cover what the bins say, and whoever is left out is hidden there.
 #[test]
 fn whoever_is_not_shown_is_nearest_nowhere() {
