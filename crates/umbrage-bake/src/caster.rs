@@ -102,6 +102,12 @@ impl<'a> Caster<'a> {
         self.film.is_some() || self.passing() != Vec3::ZERO
     }
 
+    /// Whether it has a mask or a film.
+    #[inline(always)]
+    pub(crate) fn is_masked(&self) -> bool {
+        self.mask.is_some() || self.film.is_some()
+    }
+
     /// What passes, as a map can store it.
     pub(crate) fn passing(&self) -> Vec3 {
         within(self.passes)

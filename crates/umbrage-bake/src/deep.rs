@@ -1,4 +1,4 @@
-use crate::Caster;
+use crate::Casting;
 use crate::masks::Masks;
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec3};
 use rayon::prelude::*;
@@ -97,7 +97,7 @@ pub struct BakedDeep {
 #[expect(clippy::missing_panics_doc, reason = "a view has at most 32,768 texels per side, and as many samples as fit")]
 pub fn bake_deep<'a, M>(view: &View, moments: impl IntoIterator<Item = M>, deep: &Deep) -> BakedDeep
 where
-    M: IntoIterator<Item: Into<Caster<'a>>>,
+    M: IntoIterator<Item: Into<Casting<'a>>>,
 {
     let fitting = 32_768 / view.size().max_element();
     let axis = deep.axis.min(1 << fitting.max(1).ilog2());
@@ -130,14 +130,17 @@ where
 }
 
 impl<'a> Moment<'a> {
-    fn new(fine: &View, casters: impl IntoIterator<Item: Into<Caster<'a>>>) -> Self {
+    fn new(fine: &View, casters: impl IntoIterator<Item: Into<Casting<'a>>>) -> Self {
         let (mut passes, mut masks) = (Vec::new(), Masks::new(fine));
-        let triangles = casters.into_iter().map(|caster| {
-            let caster: Caster<'a> = caster.into();
-            passes.push(caster.passing());
-            masks.note(caster)
+        let geometry = casters.into_iter().map(|casting| {
+            let casting: Casting<'a> = casting.into();
+            match &casting {
+                Casting::One(caster) => passes.push(caster.passing()),
+                Casting::Mesh(mesh) => passes.extend(std::iter::repeat_n(mesh.passing(), mesh.len())),
+            }
+            masks.note(casting)
         });
-        let bins = Bins::new(fine, TexelRect::of_size(fine.size()), Cull::None, triangles);
+        let bins = Bins::new(fine, TexelRect::of_size(fine.size()), Cull::None, geometry);
         Self { bins, passes, masks }
     }
 }

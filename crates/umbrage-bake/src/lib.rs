@@ -13,8 +13,9 @@
 //! | [`bake_tags`] | the nearest object's id per texel | Hourcade & Nicolas 1985 |
 //! | [`mix_moments`] | one map of an exposure from the maps of its moments | |
 //!
-//! A triangle's corners are all that most of them need, and they take bare [`Triangle`](umbrage_raster::Triangle)s. What some need beyond that
-//! comes with a [`Caster`], which all of them take: what light it lets through, the normals of its vertices, and a [`Mask`] that says where it has
+//! A triangle's corners are all that most of them need, and they take bare [`Triangle`](umbrage_raster::Triangle)s, or in less time
+//! [`IndexedMesh`](umbrage_raster::IndexedMesh)es, whose triangles share corners. What some need beyond that comes with a [`Caster`] or a [`CasterMesh`],
+//! which all of them take as well ([`Casting`]): what light it lets through, the normals of its vertices, and a [`Mask`] that says where it has
 //! holes, which every function evaluates at every sample.
 //!
 //! ```
@@ -46,6 +47,7 @@
 #![warn(missing_debug_implementations)]
 
 mod caster;
+mod casting;
 mod chunks;
 mod deep;
 mod facets;
@@ -60,6 +62,7 @@ mod streaming;
 mod tags;
 
 pub use caster::Caster;
+pub use casting::{CasterMesh, Casting};
 pub use deep::{BakedDeep, Deep, bake_deep};
 pub use facets::{BakedFacets, Refinement, bake_facets, bake_refined};
 pub use mask::{Film, Mask, MaskPlace};

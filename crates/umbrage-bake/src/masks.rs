@@ -3,11 +3,11 @@
 use crate::caster::within;
 use crate::mask::mix;
 use crate::rays::{places, ray};
-use crate::{Caster, Film, Mask, MaskPlace};
+use crate::{Caster, Casting, Film, Mask, MaskPlace};
 use glam::{DVec2, DVec3, IVec2, UVec2, Vec2, Vec3};
 use std::fmt;
 use umbrage_plane::{Facet, View};
-use umbrage_raster::{BIN, Bins, Coverage, Triangle};
+use umbrage_raster::{BIN, Bins, Coverage, Geometry};
 
 /// The masks of casters that are drawn: what a bake evaluates, and whoever draws with [`Bins`] directly.
 ///
@@ -59,19 +59,31 @@ impl<'a> Masks<'a> {
         self.given = 0;
     }
 
-    /// Takes one more caster, in the order of the bins, and gives its triangle.
+    /// Takes a caster or a mesh of casters, in the order of the bins, and gives what the bins take.
     #[inline(always)]
-    pub fn note(&mut self, caster: Caster<'a>) -> Triangle {
-        if caster.mask.is_some() || caster.film.is_some() {
-            self.add(&caster);
+    pub fn note(&mut self, casters: impl Into<Casting<'a>>) -> Geometry<'a> {
+        match casters.into() {
+            Casting::One(caster) => {
+                if caster.is_masked() {
+                    self.add(self.given, &caster);
+                }
+                self.given += 1;
+                caster.triangle.into()
+            }
+            Casting::Mesh(mesh) => {
+                if mesh.is_masked() {
+                    (0..mesh.len()).for_each(|index| self.add(self.given + index, &mesh.caster(index)));
+                }
+                self.given += mesh.len();
+                mesh.into_mesh().into()
+            }
         }
-        self.given += 1;
-        caster.triangle
     }
 
+    /// Takes a caster with a mask or a film, the so manieth that was given.
     #[cold]
-    fn add(&mut self, caster: &Caster<'a>) {
-        self.index.resize(self.given, UNMASKED);
+    fn add(&mut self, index: usize, caster: &Caster<'a>) {
+        self.index.resize(index, UNMASKED);
         self.index.push(self.masked.len() as u32);
         self.masked.push(Masked::new(&self.view, caster));
     }

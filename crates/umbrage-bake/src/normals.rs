@@ -1,7 +1,7 @@
 use crate::masks::Masks;
 use crate::pass1::{Pass, stored, without_cells};
 use crate::rays::{places, ray};
-use crate::{Baked, Caster};
+use crate::{Baked, Caster, Casting};
 use glam::{DMat3, DVec2, DVec3};
 use umbrage_depth::DepthRule;
 use umbrage_plane::{Facet, Facing, TexelRect, View};
@@ -14,17 +14,18 @@ use umbrage_raster::{Bins, Cull};
 /// facing decides, and so it does for triangles without [normals](Caster::normals).
 pub fn bake_by_normals<'a, R: DepthRule>(
     view: &View,
-    casters: impl IntoIterator<Item: Into<Caster<'a>>>,
+    casters: impl IntoIterator<Item: Into<Casting<'a>>>,
     rule: &R,
 ) -> Baked {
-    let casters: Vec<Caster<'a>> = casters.into_iter().map(Into::into).collect();
-    let sides: Vec<Option<DVec3>> = casters.iter().map(|caster| side(view, caster)).collect();
+    let mut all: Vec<Caster<'a>> = Vec::new();
+    casters.into_iter().for_each(|casting| all.extend(casting.into().casters()));
+    let sides: Vec<Option<DVec3>> = all.iter().map(|caster| side(view, caster)).collect();
     let front = |facet: &Facet, at: DVec2| match sides.get(facet.triangle as usize) {
         Some(Some(side)) => side.dot(ray(view, at)) > 0.0,
         _ => facet.facing == Facing::Front,
     };
     let mut masks = Masks::new(view);
-    let triangles = casters.iter().map(|caster| masks.note(*caster));
+    let triangles = all.iter().map(|caster| masks.note(*caster));
     let bins = Bins::new(view, TexelRect::of_size(view.size()), Cull::None, triangles);
     let pass = Pass { view, fine: view, rule, masks: &masks, front: Some(front) };
     let (tiles, fragments) = pass.finish(&bins, without_cells(view));

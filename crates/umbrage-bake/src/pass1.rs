@@ -1,4 +1,4 @@
-use crate::Caster;
+use crate::Casting;
 use crate::chunks::each_chunk;
 use crate::masks::Masks;
 use glam::{DVec2, IVec2, UVec2};
@@ -36,10 +36,11 @@ impl Baked {
 /// takes little memory. A rule of several passes, such as [`Midpoint`](umbrage_depth::Midpoint), needs all of them again, and holds them
 /// until the map is done. [`bake_streamed`](crate::bake_streamed) bounds the memory of the map as well.
 ///
-/// `casters` are [`Triangle`](umbrage_raster::Triangle)s or [`Caster`]s.
+/// `casters` are [`Triangle`](umbrage_raster::Triangle)s, [`Caster`](crate::Caster)s, or meshes of either ([`IndexedMesh`](umbrage_raster::IndexedMesh),
+/// [`CasterMesh`](crate::CasterMesh)), which take less time.
 pub fn bake<'a, R: DepthRule>(
     view: &View,
-    casters: impl IntoIterator<Item: Into<Caster<'a>>>,
+    casters: impl IntoIterator<Item: Into<Casting<'a>>>,
     rule: &R,
     cull: Cull,
 ) -> Baked {
@@ -56,7 +57,7 @@ pub fn bake<'a, R: DepthRule>(
 /// When the samples are more than a view may have: the map's sides times `axis`, 0 included.
 pub fn bake_multi<'a, R: DepthRule>(
     view: &View,
-    casters: impl IntoIterator<Item: Into<Caster<'a>>>,
+    casters: impl IntoIterator<Item: Into<Casting<'a>>>,
     rule: &R,
     cull: Cull,
     axis: u32,
@@ -77,7 +78,7 @@ const PER_TILE: usize = 16;
 fn draw<'a, R: DepthRule>(
     view: &View,
     fine: &View,
-    casters: impl IntoIterator<Item: Into<Caster<'a>>>,
+    casters: impl IntoIterator<Item: Into<Casting<'a>>>,
     rule: &R,
     cull: Cull,
 ) -> Baked {

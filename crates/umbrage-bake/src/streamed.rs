@@ -3,7 +3,7 @@
 use crate::chunks::each_chunk;
 use crate::masks::Masks;
 use crate::pass1::{BY_WINDING, Cells, Pass};
-use crate::{Caster, Streaming};
+use crate::{Casting, Streaming};
 use glam::{IVec2, UVec2};
 use rayon::prelude::*;
 use umbrage_depth::{DepthRule, Tile};
@@ -72,7 +72,7 @@ pub fn bake_streamed<'a, R: DepthRule, I, E>(
     mut each: impl FnMut(Vec<Option<Tile>>) -> Result<(), E>,
 ) -> Result<Streamed, E>
 where
-    I: IntoIterator<Item: Into<Caster<'a>>>,
+    I: IntoIterator<Item: Into<Casting<'a>>>,
 {
     let grid = view.size().map(|side| side.div_ceil(BIN));
     let rows = streaming.rows(grid, size_of::<R::Row>());

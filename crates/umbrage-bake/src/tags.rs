@@ -1,4 +1,4 @@
-use crate::Caster;
+use crate::Casting;
 use crate::masks::Masks;
 use crate::pass1::{BY_WINDING, Pass};
 use glam::UVec2;
@@ -24,10 +24,10 @@ impl Reduction for Nearest {
 }
 
 /// Pass 1 of the baseline by object tags: the id of the nearest object of each texel (Wang & Molnar 1994).
-pub fn bake_tags<'a>(view: &View, casters: impl IntoIterator<Item: Into<Caster<'a>>>) -> TagMap {
+pub fn bake_tags<'a>(view: &View, casters: impl IntoIterator<Item: Into<Casting<'a>>>) -> TagMap {
     let mut masks = Masks::new(view);
-    let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
-    let bins = Bins::new(view, TexelRect::of_size(view.size()), Cull::None, triangles);
+    let geometry = casters.into_iter().map(|casters| masks.note(casters));
+    let bins = Bins::new(view, TexelRect::of_size(view.size()), Cull::None, geometry);
     let grid = bins.tiles();
     let pass = Pass { view, fine: view, rule: &Nearest, masks: &masks, front: BY_WINDING };
     let tiles: Vec<_> = (0..grid.x * grid.y)

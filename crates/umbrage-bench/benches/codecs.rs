@@ -39,14 +39,14 @@ fn both<M: DepthMap>(
 
 fn codecs(criterion: &mut Criterion) {
     let view = Scene::view(SIDE);
-    let casters = umbrage_bench::meshes::knot_on_ground(Segments::MEDIUM.0, Segments::MEDIUM.1).casters();
-    let raw = Raw::copy_of(&first(&view, &casters).map);
+    let mesh = umbrage_bench::meshes::knot_on_ground(Segments::MEDIUM.0, Segments::MEDIUM.1);
+    let raw = Raw::copy_of(&first(&view, &mesh).map);
     let encode = |map: &Raw| encode_shadow_map(map).expect("a map");
     both(criterion, "flat", &raw, encode, |bytes| {
         let map = decode_shadow_map(bytes, TEXELS).expect("a map");
         Box::new(move |texel| map.depth(texel))
     });
-    let facets = refined(&view, &casters).map;
+    let facets = refined(&view, &mesh).map;
     both(
         criterion,
         "facets",
@@ -57,7 +57,7 @@ fn codecs(criterion: &mut Criterion) {
             Box::new(move |texel| map.depth(texel))
         },
     );
-    let deep = bake_deep(&view, [casters.iter().copied()], &Deep::default().with_axis(1)).map;
+    let deep = bake_deep(&view, [mesh.indexed()], &Deep::default().with_axis(1)).map;
     both(
         criterion,
         "deep",

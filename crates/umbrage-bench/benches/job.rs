@@ -16,14 +16,13 @@ fn jobs(criterion: &mut Criterion) {
     for (triangles, segments) in [("75k", Segments::MEDIUM), ("1M", Segments::LARGE)] {
         let scene = Scene::new(segments, 1024);
         let (mesh, points, view, light) = (&scene.mesh, &scene.points, Scene::view(1024), Scene::disc());
-        let casters = mesh.casters();
         let ways: [(&str, Way<'_>); 5] = [
             ("pcf", &|out| {
-                let map = first(&view, &casters).map;
+                let map = first(&view, mesh).map;
                 ShadowMap { filter: closer(&view), map }.fractions(points, KEY, out);
             }),
             ("auto", &|out| {
-                let map = refined(&view, &casters).map;
+                let map = refined(&view, mesh).map;
                 ShadowMap { filter: DualPlane::default(), map }.fractions(points, KEY, out);
             }),
             ("1-ray-of-two", &|out| Tree::of_two(mesh).one_ray(points, light, out)),

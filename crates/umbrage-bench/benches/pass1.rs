@@ -7,7 +7,7 @@ use std::hint::black_box;
 use umbrage_bench::in_pool;
 use umbrage_bench::peers::memory::clear_and_min;
 use umbrage_bench::peers::software::Software;
-use umbrage_bench::raster::{Workload, facets, first, midpoint, refined, second};
+use umbrage_bench::raster::{Workload, facets, first, first_one_by_one, midpoint, refined, second};
 use umbrage_bench::scene::Segments;
 use umbrage_depth::DepthMap;
 
@@ -36,6 +36,10 @@ fn meshes(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::new("ours", side), |bencher| {
             in_pool(1, || bencher.iter(|| black_box(&workload).first()));
         });
+        let triangles = workload.mesh.one_by_one();
+        group.bench_function(BenchmarkId::new("one-by-one", side), |bencher| {
+            in_pool(1, || bencher.iter(|| first_one_by_one(&workload.view, black_box(&triangles))));
+        });
         group.bench_function(BenchmarkId::new("euc", side), |bencher| {
             bencher.iter(|| software.draw(black_box(&workload.mesh)));
         });
@@ -49,9 +53,9 @@ fn meshes(criterion: &mut Criterion) {
 fn rules(criterion: &mut Criterion) {
     for side in SIDES {
         let knot = Workload::knot("knot-75k", Segments::MEDIUM, side);
-        let (view, casters) = (&knot.view, &knot.casters);
+        let (view, mesh) = (&knot.view, &knot.mesh);
         let depths = knot.checked().map;
-        let (coarse, fine) = (facets(view, casters).map, refined(view, casters).map);
+        let (coarse, fine) = (facets(view, mesh).map, refined(view, mesh).map);
         for texel in umbrage_plane::TexelRect::of_size(view.size()).texels().step_by(97) {
             assert_eq!(coarse.depth(texel), depths.depth(texel), "facets at {texel}");
             // Samples of a refined map may share a plane that is nearly their own.
@@ -68,11 +72,11 @@ fn rules(criterion: &mut Criterion) {
             depths.allocated()
         );
         let ways: [(&str, &(dyn Fn() + Sync)); 5] = [
-            ("first", &|| drop(black_box(first(view, casters)))),
-            ("second", &|| drop(black_box(second(view, casters)))),
-            ("midpoint", &|| drop(black_box(midpoint(view, casters)))),
-            ("facets", &|| drop(black_box(facets(view, casters)))),
-            ("refined-facets", &|| drop(black_box(refined(view, casters)))),
+            ("first", &|| drop(black_box(first(view, mesh)))),
+            ("second", &|| drop(black_box(second(view, mesh)))),
+            ("midpoint", &|| drop(black_box(midpoint(view, mesh)))),
+            ("facets", &|| drop(black_box(facets(view, mesh)))),
+            ("refined-facets", &|| drop(black_box(refined(view, mesh)))),
         ];
         let mut group = criterion.benchmark_group("rules");
         group.sample_size(10).throughput(Throughput::Elements(u64::from(side) * u64::from(side)));

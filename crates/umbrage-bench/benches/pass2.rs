@@ -21,7 +21,7 @@ fn picture(criterion: &mut Criterion) {
         group.sample_size(10).throughput(Throughput::Elements(points.len() as u64));
 
         let places = listing::places(&receivers, side);
-        let map = Raw::copy_of(&first(&view, &scene.mesh.casters()).map);
+        let map = Raw::copy_of(&first(&view, &scene.mesh).map);
         let mut out = vec![f32::NAN; points.len()];
         listing::fractions(&map, &places, HALF, bias(&view), &mut out);
         listing::assert_as_printed(&map, &places, HALF, bias(&view), &out);

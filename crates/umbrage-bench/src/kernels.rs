@@ -25,18 +25,18 @@ pub fn run(name: &str) -> Option<usize> {
     in_pool(1, || {
         Some(match name {
             "transform" => transform(),
-            "pcf-raw" => look_up(|view, casters| (closer(view), Raw::copy_of(&first(view, casters).map))),
-            "pcf-plane-raw" => look_up(|view, casters| (on_plane(view), Raw::copy_of(&first(view, casters).map))),
-            "auto" => look_up(|view, casters| (DualPlane::default(), refined(view, casters).map)),
+            "pcf-raw" => look_up(|view, mesh| (closer(view), Raw::copy_of(&first(view, mesh).map))),
+            "pcf-plane-raw" => look_up(|view, mesh| (on_plane(view), Raw::copy_of(&first(view, mesh).map))),
+            "auto" => look_up(|view, mesh| (DualPlane::default(), refined(view, mesh).map)),
             "bins-tiny" => {
-                let (view, casters) = (straight(SIDE), grid(200, 282, SIDE).casters());
+                let (view, mesh) = (straight(SIDE), grid(200, 282, SIDE));
                 let window = TexelRect::of_size(view.size());
-                measured(&mut || drop(black_box(Bins::new(&view, window, Cull::None, casters.iter().copied()))));
-                casters.len()
+                measured(&mut || drop(black_box(Bins::new(&view, window, Cull::None, mesh.indexed()))));
+                mesh.triangles.len()
             }
             "tiles-layers" => {
-                let (view, casters) = (straight(SIDE), layers(8).casters());
-                measured(&mut || drop(black_box(first(&view, &casters))));
+                let (view, mesh) = (straight(SIDE), layers(8));
+                measured(&mut || drop(black_box(first(&view, &mesh))));
                 SIDE as usize * SIDE as usize * 8
             }
             _ => return None,
@@ -55,10 +55,10 @@ fn transform() -> usize {
 
 /// A filter over a map, asked about receivers that are in the light's space.
 fn look_up<F: Filter, M: umbrage_depth::DepthMap>(
-    make: impl Fn(&umbrage_plane::View, &[umbrage_raster::Triangle]) -> (F, M),
+    make: impl Fn(&umbrage_plane::View, &crate::meshes::Mesh) -> (F, M),
 ) -> usize {
     let (scene, view) = (Scene::sparse(Segments::SMALL, SIDE, STEP), Scene::view(SIDE));
-    let (filter, map) = make(&view, &scene.mesh.casters());
+    let (filter, map) = make(&view, &scene.mesh);
     let (shadow, receivers) = (ShadowMap { filter, map }, scene.receivers(&view));
     let mut out = vec![f32::NAN; receivers.len()];
     measured(&mut || ready(&shadow, black_box(&receivers), &mut out));

@@ -104,11 +104,11 @@ fn with_depth<D: umbrage_shadow::ReceiverDepth>(depth: D) -> Pcf<Jittered, D> {
 
 /// Every filter over maps of the scene.
 pub fn all(scene: &Scene, view: &View) -> Vec<LookUp> {
-    let casters = scene.mesh.casters();
-    let nearest = first(view, &casters).map;
-    let (middle, beyond) = (midpoint(view, &casters).map, second(view, &casters).map);
-    let deep = bake_deep(view, [casters.iter().copied()], &Deep::default().with_axis(1)).map;
-    let refined = refined(view, &casters).map;
+    let mesh = &scene.mesh;
+    let nearest = first(view, mesh).map;
+    let (middle, beyond) = (midpoint(view, mesh).map, second(view, mesh).map);
+    let deep = bake_deep(view, [mesh.indexed()], &Deep::default().with_axis(1)).map;
+    let refined = refined(view, mesh).map;
     let mut all = Vec::new();
     /// A filter over a tiled map and over a raw copy of it.
     macro_rules! both {
@@ -120,7 +120,7 @@ pub fn all(scene: &Scene, view: &View) -> Vec<LookUp> {
     }
     both!("pcf-bias", closer(view), &nearest);
     // Behind the tiled map, which it is held to.
-    all.push(LookUp::new("pcf-bias", "facets", closer(view), facets(view, &casters).map));
+    all.push(LookUp::new("pcf-bias", "facets", closer(view), facets(view, mesh).map));
     both!("pcf-table", closer(view).with_pattern(Table::default()), &nearest);
     both!("pcf-plane", on_plane(view), &nearest);
     both!("pcf-cone", with_depth(BiasCone::default()), &nearest);

@@ -4,7 +4,7 @@
 use glam::{DVec3, UVec2, Vec2, Vec3};
 use std::f32::consts::TAU;
 use umbrage_plane::View;
-use umbrage_raster::Triangle;
+use umbrage_raster::{IndexedMesh, Triangle};
 use umbrage_sample::Key;
 
 /// Half of the angle of [`straight`] views, as a tangent.
@@ -22,13 +22,16 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// The triangles as the rasteriser takes them.
-    pub fn casters(&self) -> Vec<Triangle> {
-        let casters = self.triangles.iter().enumerate().map(|(index, corners)| {
-            let solid = index < self.solid;
-            Triangle::new(corners.map(|corner| self.vertices[corner as usize]), u32::from(solid), !solid)
-        });
-        casters.collect()
+    /// As the rasteriser takes them: the solid, then the sheets.
+    pub fn indexed(&self) -> [IndexedMesh<'_>; 2] {
+        let (solid, sheets) = self.triangles.split_at(self.solid);
+        let mesh = |triangles, object, sheet| IndexedMesh::new(DVec3::ZERO, &self.vertices, triangles, object, sheet);
+        [mesh(solid, 1, false), mesh(sheets, 0, true)]
+    }
+
+    /// The same triangles one by one.
+    pub fn one_by_one(&self) -> Vec<Triangle> {
+        self.indexed().iter().flat_map(IndexedMesh::triangles).collect()
     }
 
     /// The corners of a triangle.

@@ -19,8 +19,6 @@ pub struct Workload {
     pub view: View,
     /// What is drawn.
     pub mesh: Mesh,
-    /// The same as the rasteriser takes it.
-    pub casters: Vec<Triangle>,
     /// Texels that must be covered.
     pub covered: Covered,
 }
@@ -36,18 +34,22 @@ pub enum Covered {
 
 impl Workload {
     fn new(name: &'static str, side: u32, view: &View, mesh: Mesh, covered: Covered) -> Self {
-        Self { name, side, view: *view, casters: mesh.casters(), mesh, covered }
+        Self { name, side, view: *view, mesh, covered }
     }
 
     fn straight(name: &'static str, side: u32, mesh: Mesh, covered: Covered) -> Self {
         Self::new(name, side, &straight(side), mesh, covered)
     }
 
-    /// Its triangles set up and sorted into tiles in chunks as [`bake`] takes them, and nothing drawn; the last chunk.
+    /// Set up and sorted into tiles in chunks as [`bake`] takes them, and nothing drawn; the last chunk.
     pub fn binned(&self) -> Bins {
-        let mut bins = Bins::new(&self.view, TexelRect::of_size(self.view.size()), Cull::None, []);
-        for chunk in self.casters.chunks((16 * bins.tiles().element_product() as usize).max(1 << 16)) {
-            bins.refill(chunk.iter().copied());
+        let nothing: [Triangle; 0] = [];
+        let mut bins = Bins::new(&self.view, TexelRect::of_size(self.view.size()), Cull::None, nothing);
+        let most = (16 * bins.tiles().element_product() as usize).max(1 << 16);
+        for mut mesh in self.mesh.indexed() {
+            while !mesh.is_empty() {
+                bins.refill([mesh.split_to(most)]);
+            }
         }
         bins
     }
@@ -85,7 +87,7 @@ impl Workload {
 
     /// Pass 1 by the nearest surface.
     pub fn first(&self) -> Baked {
-        first(&self.view, &self.casters)
+        first(&self.view, &self.mesh)
     }
 
     /// Draws it once by ours, and checks what was drawn.
@@ -129,26 +131,31 @@ fn texels(side: u32) -> usize {
 }
 
 /// Pass 1 by the nearest surface.
-pub fn first(view: &View, casters: &[Triangle]) -> Baked {
-    bake(view, casters.iter().copied(), &First, Cull::None)
+pub fn first(view: &View, mesh: &Mesh) -> Baked {
+    bake(view, mesh.indexed(), &First, Cull::None)
+}
+
+/// The same of triangles that share nothing.
+pub fn first_one_by_one(view: &View, triangles: &[Triangle]) -> Baked {
+    bake(view, triangles.iter().copied(), &First, Cull::None)
 }
 
 /// Pass 1 by the second surface.
-pub fn second(view: &View, casters: &[Triangle]) -> Baked {
-    bake(view, casters.iter().copied(), &Second, Cull::None)
+pub fn second(view: &View, mesh: &Mesh) -> Baked {
+    bake(view, mesh.indexed(), &Second, Cull::None)
 }
 
 /// Pass 1 by midpoints.
-pub fn midpoint(view: &View, casters: &[Triangle]) -> Baked {
-    bake(view, casters.iter().copied(), &Midpoint::default(), Cull::None)
+pub fn midpoint(view: &View, mesh: &Mesh) -> Baked {
+    bake(view, mesh.indexed(), &Midpoint::default(), Cull::None)
 }
 
 /// Pass 1 of facets, one for each texel.
-pub fn facets(view: &View, casters: &[Triangle]) -> BakedFacets {
-    bake_facets(view, casters.iter().copied(), &First, Cull::None)
+pub fn facets(view: &View, mesh: &Mesh) -> BakedFacets {
+    bake_facets(view, mesh.indexed(), &First, Cull::None)
 }
 
 /// Pass 1 of facets as `auto` wants it.
-pub fn refined(view: &View, casters: &[Triangle]) -> BakedFacets {
-    bake_refined(view, casters.iter().copied(), &Refinement::default())
+pub fn refined(view: &View, mesh: &Mesh) -> BakedFacets {
+    bake_refined(view, mesh.indexed(), &Refinement::default())
 }

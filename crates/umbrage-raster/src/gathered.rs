@@ -56,27 +56,29 @@ impl Bins {
             let outline = Outline { piece, corners, low, high };
             outline.touches(region).then_some(outline)
         };
-        let merged;
-        let numbers = if region.max.cmple((from + 1) * side + self.beyond()).all() {
-            self.list(from.as_uvec2())
+        let mut outlines = Vec::new();
+        if region.max.cmple((from + 1) * side + self.beyond()).all() {
+            outlines.reserve(self.reaching(from.as_uvec2()));
+            for list in self.lists(from.as_uvec2()) {
+                outlines.extend(list.iter().filter_map(|number| outline(*number)));
+            }
         } else {
             // Of a tile that lies in the region almost all reaches it; of one beside it almost nothing.
             let is_whole =
                 |tile: IVec2| (tile * side).cmpge(region.min).all() && ((tile + 1) * side).cmple(region.max).all();
             let mut numbers: Vec<u32> = Vec::new();
             for tile in TexelRect::new(from, to + 1).texels() {
-                let list = self.list(tile.as_uvec2());
-                if is_whole(tile) {
-                    numbers.extend_from_slice(list);
-                } else {
-                    numbers.extend(list.iter().filter(|number| outline(**number).is_some()));
+                for list in self.lists(tile.as_uvec2()) {
+                    if is_whole(tile) {
+                        numbers.extend_from_slice(list);
+                    } else {
+                        numbers.extend(list.iter().filter(|number| outline(**number).is_some()));
+                    }
                 }
             }
-            merged = merge(numbers);
-            &merged
-        };
-        let mut outlines = Vec::with_capacity(numbers.len());
-        outlines.extend(numbers.iter().filter_map(|number| outline(*number)));
+            outlines.reserve(numbers.len());
+            outlines.extend(merge(numbers).into_iter().filter_map(outline));
+        }
         Gathered { bins: self, outlines }
     }
 }

@@ -46,6 +46,9 @@ mod coverage;
 mod eight;
 mod fragments;
 mod gathered;
+mod job;
+mod lists;
+mod mesh;
 mod piece;
 mod setup;
 mod small;
@@ -55,6 +58,7 @@ pub use bins::Bins;
 pub use coverage::Coverage;
 pub use fragments::{RUN, each_fragment, each_run};
 pub use gathered::{Gathered, Shown};
+pub use mesh::{Geometry, IndexedMesh};
 pub use spans::{Band, Lines, Runs};
 
 use glam::DVec3;

@@ -1,6 +1,6 @@
 //! What is kept of triangles until tiles are filled from it.
 
-use crate::{BIN, Stats};
+use crate::{BIN, Stats, Triangle};
 use glam::IVec2;
 use umbrage_plane::{Affine, Facet, Facing};
 
@@ -33,6 +33,20 @@ impl Patch {
     #[inline(always)]
     pub fn covered(self) -> u32 {
         self.0 >> 16
+    }
+}
+
+/// Whose a triangle is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Owner {
+    pub object: u32,
+    pub sheet: bool,
+}
+
+impl Triangle {
+    #[inline(always)]
+    pub(crate) fn owner(&self) -> Owner {
+        Owner { object: self.object, sheet: self.sheet }
     }
 }
 
@@ -69,6 +83,27 @@ impl Piece {
     pub fn patch(&self) -> Patch {
         if self.sides == 3 { Patch(self.extra) } else { Patch::NONE }
     }
+}
+
+/// log₂ of the triangles of a block: few enough for a processor's own cache.
+const SHIFT: u32 = 10;
+/// The triangles of a block; the last one may have fewer.
+pub(crate) const SIZE: usize = 1 << SHIFT;
+
+/// The block of a triangle, by its index.
+pub(crate) fn block_of(triangle: u32) -> usize {
+    (triangle >> SHIFT) as usize
+}
+
+/// The number of a piece, by its block and its place there: ascending in the order of the triangles.
+pub(crate) fn number(block: usize, place: usize) -> u32 {
+    (block << SHIFT | place) as u32
+}
+
+/// Block and place of a piece by its number.
+#[inline(always)]
+pub(crate) fn place(number: u32) -> (usize, usize) {
+    ((number >> SHIFT) as usize, number as usize & (SIZE - 1))
 }
 
 /// Consecutive triangles that were set up together.

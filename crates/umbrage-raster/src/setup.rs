@@ -1,10 +1,10 @@
 //! From a triangle of the world to the record that tiles are filled from.
 
 use crate::clip::{Clipper, GUARD_TEXELS, NEAR_LIMIT};
-use crate::piece::{Block, Patch, Piece, SEVERAL};
+use crate::piece::{Block, Owner, Patch, Piece, SEVERAL};
 use crate::{BIN, Cull, Triangle};
-use glam::{DVec3, IVec2};
-use umbrage_plane::{Affine, Sampling, TexelRect, View, vectorized};
+use glam::{DVec3, IVec2, UVec2};
+use umbrage_plane::{Affine, Sampling, TexelRect, View};
 
 /// One snap step is 1/256 texel.
 pub(crate) const SUBTEXELS: i32 = 256;
@@ -61,20 +61,22 @@ pub(crate) struct Setup {
 }
 
 impl Setup {
-    /// Sets up consecutive triangles, the index of the first of which is `first`, in place of those that a block holds.
-    pub fn fill(&self, block: &mut Block, first: u32, triangles: &[Triangle]) {
+    /// Makes a block anew of so many consecutive triangles, which `add` adds, the index of the first of which is `first`.
+    pub fn fill(&self, block: &mut Block, first: u32, count: usize, add: impl FnOnce(&mut Making<'_>)) {
         let mut making = Making { setup: self, first, clipper: Clipper::default(), block: block.emptied() };
-        making.block.pieces.reserve(triangles.len());
-        making.block.homes.reserve(triangles.len());
-        vectorized!(_ => making.add_all(triangles));
+        making.block.pieces.reserve(count);
+        making.block.homes.reserve(count);
+        add(&mut making);
         *block = making.block;
-        if block.pieces.len() < triangles.len() / 2 {
+        if block.pieces.len() < count / 2 {
             block.pieces.shrink_to_fit();
         }
     }
 
-    pub fn tiles_across(&self) -> u32 {
-        self.view.size().x.div_ceil(BIN)
+    /// Number of tiles across and down.
+    #[inline(always)]
+    pub fn tiles(&self) -> UVec2 {
+        self.view.size().map(|side| side.div_ceil(BIN))
     }
 
     /// Whether the outside of a polygon is seen, by twice its area; or why it is not drawn.
@@ -106,7 +108,7 @@ impl Setup {
             return Err(Skip::Missed);
         }
         let (first, last) = (texels.min.as_uvec2() / BIN, (texels.max - 1).as_uvec2() / BIN);
-        let home = first.y * self.tiles_across() + first.x;
+        let home = first.y * self.tiles().x + first.x;
         Ok((front, if first == last { home } else { SEVERAL }))
     }
 }
@@ -154,26 +156,26 @@ impl Making<'_> {
 
     /// Takes one more triangle that is not cut.
     #[inline(always)]
-    pub fn add_whole(&mut self, triangle: &Triangle, whole: &Whole) {
+    pub fn add_whole(&mut self, owner: Owner, whole: &Whole) {
         let [a, b, c] = whole.corners;
         let bounds = (a.min(b).min(c), a.max(b).max(c));
-        let placed = self.setup.place(bounds, whole.area, 3, triangle.sheet);
-        self.keep_whole(triangle, whole, Patch::NONE, placed);
+        let placed = self.setup.place(bounds, whole.area, 3, owner.sheet);
+        self.keep_whole(owner, whole, Patch::NONE, placed);
     }
 
     /// [`Making::add_whole`] of a small triangle.
     #[inline(always)]
-    pub fn add_small(&mut self, triangle: &Triangle, whole: &Whole, patch: Patch, home: u32) {
-        let placed = self.setup.front(whole.area, 3, triangle.sheet).map(|front| (front, home));
-        self.keep_whole(triangle, whole, patch, placed);
+    pub fn add_small(&mut self, owner: Owner, whole: &Whole, patch: Patch, home: u32) {
+        let placed = self.setup.front(whole.area, 3, owner.sheet).map(|front| (front, home));
+        self.keep_whole(owner, whole, patch, placed);
     }
 
     #[inline(always)]
-    fn keep_whole(&mut self, triangle: &Triangle, whole: &Whole, patch: Patch, placed: Result<(bool, u32), Skip>) {
+    fn keep_whole(&mut self, owner: Owner, whole: &Whole, patch: Patch, placed: Result<(bool, u32), Skip>) {
         let made = match placed {
             Ok((front, home)) => {
                 self.block.stats.before_near += u64::from(whole.before_near);
-                self.keep(triangle, whole.plane, whole.corners, (patch.0, 3), front, home);
+                self.keep(owner, whole.plane, whole.corners, (patch.0, 3), front, home);
                 Ok(())
             }
             Err(skip) => Err(skip),
@@ -184,14 +186,14 @@ impl Making<'_> {
     #[inline(always)]
     fn keep(
         &mut self,
-        triangle: &Triangle,
+        owner: Owner,
         plane: Affine,
         corners: [IVec2; 3],
         (extra, sides): (u32, u8),
         front: bool,
         home: u32,
     ) {
-        let &Triangle { object, sheet, .. } = triangle;
+        let Owner { object, sheet } = owner;
         let index = self.first + self.block.stats.given as u32;
         self.block.pieces.push(Piece { plane, corners, extra, triangle: index, object, sides, front, sheet });
         self.block.homes.push(home);
@@ -238,7 +240,7 @@ impl Making<'_> {
         self.block.stats.clipped += u64::from(projected.clipped);
         self.block.stats.before_near += u64::from(eye.iter().any(|corner| -corner.z < view.near()));
         let extra = if sides == 3 { Patch::NONE.0 } else { first as u32 };
-        self.keep(triangle, plane, corners, (extra, sides as u8), front, home);
+        self.keep(triangle.owner(), plane, corners, (extra, sides as u8), front, home);
         Ok(())
     }
 }

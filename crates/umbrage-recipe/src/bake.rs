@@ -4,26 +4,26 @@ use crate::values::{Rule, Values};
 use std::iter;
 use std::sync::Arc;
 use umbrage_bake::{
-    Baked, Caster, bake, bake_by_normals, bake_deep, bake_facets, bake_multi, bake_refined, mix_moments,
+    Baked, Casting, bake, bake_by_normals, bake_deep, bake_facets, bake_multi, bake_refined, mix_moments,
 };
 use umbrage_depth::{BackFace, DepthRule, First, Map, Second, Tiled};
 use umbrage_plane::View;
 use umbrage_raster::{Cull, Stats};
 
 /// The [casters of one moment](moment), whose masks live for `'m`.
-pub(crate) type Moment<'a, 'm> = iter::Flatten<Box<dyn Iterator<Item = Vec<Caster<'m>>> + 'a>>;
+pub(crate) type Moment<'a, 'm> = iter::Flatten<Box<dyn Iterator<Item = Vec<Casting<'m>>> + 'a>>;
 
 /// Casters that are taken from behind a `dyn` at once.
 const AT_ONCE: usize = 256;
 
 /// The casters of one moment, of one type whatever gives them. They come many at a time: with a call through a table for each of them, bakes of a million
 /// triangles took a fifth longer.
-pub(crate) fn moment<'a, 'm: 'a>(casters: impl Iterator<Item = Caster<'m>> + 'a) -> Moment<'a, 'm> {
+pub(crate) fn moment<'a, 'm: 'a>(casters: impl Iterator<Item = Casting<'m>> + 'a) -> Moment<'a, 'm> {
     let mut casters = casters.fuse();
     let chunks = iter::from_fn(move || {
         let mut chunk = Vec::with_capacity(AT_ONCE);
         // Not `extend`: an iterator of iterators is run through faster from within.
-        casters.by_ref().take(AT_ONCE).for_each(|caster| chunk.push(caster));
+        casters.by_ref().take(AT_ONCE).for_each(|casting| chunk.push(casting));
         (!chunk.is_empty()).then_some(chunk)
     });
     let chunks: Box<dyn Iterator<Item = _> + 'a> = Box::new(chunks);

@@ -4,11 +4,11 @@ use crate::values::{Values, Window};
 use crate::{PresetName, Recipe, RecipeError};
 use std::cell::Cell;
 use std::fmt;
-use umbrage_bake::Caster;
+use umbrage_bake::Casting;
 use umbrage_depth::{DepthMap, Map, Storage};
 use umbrage_plane::View;
-use umbrage_plane::glam::DVec3;
-use umbrage_raster::{Stats, Triangle};
+use umbrage_plane::glam::{DVec3, Vec3};
+use umbrage_raster::{IndexedMesh, Stats};
 use umbrage_shadow::{Bounded, Mean, Shadow, Through};
 
 /// Cosine of the half-angle beyond which a spot light gets several views: 70°.
@@ -139,7 +139,7 @@ impl Recipe {
         mut casters: impl FnMut(&View, u32) -> I,
     ) -> Result<LightShadow, RecipeError>
     where
-        I: IntoIterator<Item: Into<Caster<'a>>>,
+        I: IntoIterator<Item: Into<Casting<'a>>>,
     {
         let Values { window, light, .. } = self.values;
         let auto = self.preset == PresetName::Auto;
@@ -254,22 +254,23 @@ impl Made<'_> {
         mut casters: impl FnMut(&View) -> I,
     ) -> Result<Box<dyn Shadow>, RecipeError>
     where
-        I: IntoIterator<Item: Into<Caster<'a>>>,
+        I: IntoIterator<Item: Into<Casting<'a>>>,
     {
         let passing = Cell::new(false);
         let mut pass = |made: &mut Self, recipe: &Recipe, transparent: bool| {
             let mut maps = Vec::new();
             for view in views {
                 let left_out = Cell::new(0);
-                // What is left out stays as a triangle of no area, so that masks are evaluated for the triangles that they belong to.
-                let wanted = |caster: Caster<'a>| {
-                    let passes = caster.is_transparent();
+                // What is left out stays as triangles of no area, so that masks are evaluated for the triangles that they belong to.
+                let wanted = |casting: Casting<'a>| {
+                    let passes = casting.is_transparent();
                     passing.set(passing.get() || passes);
                     if passes == transparent {
-                        return caster;
+                        return casting;
                     }
-                    left_out.set(left_out.get() + 1);
-                    Caster::from(Triangle { corners: [DVec3::ZERO; 3], ..caster.triangle })
+                    left_out.set(left_out.get() + casting.count() as u64);
+                    let nothing = vec![[0; 3]; casting.count()];
+                    IndexedMesh::new(DVec3::ZERO, vec![Vec3::ZERO], nothing, 0, false).into()
                 };
                 let casters = casters(view).into_iter().map(Into::into).map(wanted);
                 let (map, stats) = recipe.bake_counted(view, [casters]);
@@ -294,16 +295,17 @@ impl Made<'_> {
 fn points_of<'a>(
     view: &View,
     radius: f32,
-    casters: impl Iterator<Item = Caster<'a>>,
+    casters: impl Iterator<Item = Casting<'a>>,
     receivers: Option<&[DVec3]>,
 ) -> u32 {
     let zeta = |at: &DVec3| -view.world_to_eye().transform_point3(*at).z;
     let (mut nearest, mut farthest) = (f64::INFINITY, f64::NEG_INFINITY);
-    // What is beside or behind the light blocks none of what goes ahead.
-    let ahead =
-        casters.flat_map(|caster| caster.triangle.corners.map(|corner| zeta(&corner))).filter(|zeta| *zeta > 0.0);
-    for zeta in ahead {
-        (nearest, farthest) = (nearest.min(zeta), farthest.max(zeta));
+    for casting in casters {
+        // What is beside or behind the light blocks none of what goes ahead.
+        let corners = casting.triangles().flat_map(|triangle| triangle.corners);
+        for zeta in corners.map(|corner| zeta(&corner)).filter(|zeta| *zeta > 0.0) {
+            (nearest, farthest) = (nearest.min(zeta), farthest.max(zeta));
+        }
     }
     if let Some(receivers) = receivers.filter(|receivers| !receivers.is_empty()) {
         farthest = receivers.iter().map(zeta).fold(f64::NEG_INFINITY, f64::max);

@@ -1,7 +1,7 @@
 use crate::bake::moment;
 use crate::values::{Values, Window};
 use crate::{PresetName, RecipeError, kind};
-use umbrage_bake::Caster;
+use umbrage_bake::Casting;
 use umbrage_depth::{DepthMap, Map, Midpoint, Storage, Stored};
 use umbrage_plane::{Bias, View};
 use umbrage_raster::Stats;
@@ -165,7 +165,7 @@ impl Recipe {
     /// assert_eq!(shadow.fraction(&SurfacePoint::at(Vec3::ZERO, Vec3::Z), Key::new(0, 0, 0)), 1.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn bake<'m>(&self, view: &View, casters: impl IntoIterator<Item: Into<Caster<'m>>>) -> Map {
+    pub fn bake<'m>(&self, view: &View, casters: impl IntoIterator<Item: Into<Casting<'m>>>) -> Map {
         self.bake_moments(view, [casters])
     }
 
@@ -173,7 +173,7 @@ impl Recipe {
     /// surface each texel sees one of them. An empty map of none.
     pub fn bake_moments<'m, M>(&self, view: &View, moments: impl IntoIterator<Item = M>) -> Map
     where
-        M: IntoIterator<Item: Into<Caster<'m>>>,
+        M: IntoIterator<Item: Into<Casting<'m>>>,
     {
         self.bake_counted(view, moments).0
     }
@@ -182,7 +182,7 @@ impl Recipe {
     /// lost a part, and with it its shadow, for standing too near to the light. Its `Display` is one line for people.
     pub fn bake_counted<'m, M>(&self, view: &View, moments: impl IntoIterator<Item = M>) -> (Map, Stats)
     where
-        M: IntoIterator<Item: Into<Caster<'m>>>,
+        M: IntoIterator<Item: Into<Casting<'m>>>,
     {
         // Whatever triangles come as, all rules over them are compiled once, here.
         let mut moments = moments.into_iter().map(|casters| moment(casters.into_iter().map(Into::into)));

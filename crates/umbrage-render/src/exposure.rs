@@ -1,6 +1,6 @@
 use crate::{Soup, alpha_blend, alpha_test, receivers};
 use glam::Vec3;
-use umbrage_bake::{Caster, Deep, MaskPlace, bake_deep, mix_moments};
+use umbrage_bake::{CasterMesh, Deep, MaskPlace, bake_deep, mix_moments};
 use umbrage_depth::{DeepMap, DepthMap, Map, Storage, Tiled};
 use umbrage_plane::View;
 use umbrage_raster::Stats;
@@ -64,7 +64,7 @@ fn casting<'m>(
     moments: &[&'m Scene],
     covers: &'m [(impl Fn(&MaskPlace) -> bool + Sync, impl Fn(&MaskPlace) -> Vec3 + Sync)],
     view: &View,
-) -> impl Iterator<Item = impl Iterator<Item = Caster<'m>>> {
+) -> impl Iterator<Item = impl Iterator<Item = CasterMesh<'m>>> {
     moments.iter().zip(covers).map(|(scene, (test, blend))| Soup::casters(scene, view).into_casting(test, blend))
 }
 

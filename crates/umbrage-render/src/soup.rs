@@ -1,9 +1,9 @@
 use crate::weights::weights;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use std::borrow::Cow;
-use umbrage_bake::{Caster, Film, Mask, MaskPlace};
+use umbrage_bake::{CasterMesh, Film, Mask, MaskPlace};
 use umbrage_plane::View;
-use umbrage_raster::Triangle;
+use umbrage_raster::{IndexedMesh, Triangle};
 use umbrage_scene::{Cover, Mesh, MeshError, Object, Scene};
 
 /// The triangles of a scene for one view, and the way back from a triangle's index to its mesh.
@@ -58,18 +58,37 @@ impl Piece<'_> {
         let [a, b, c] = self.mesh.corner_uvs(local).map(Vec2::as_dvec2);
         a * weights.x + b * weights.y + c * weights.z
     }
+}
 
-    #[inline]
-    fn caster<'m>(&self, origin: DVec3, local: usize, alpha_test: Mask<'m>, alpha_blend: Film<'m>) -> Caster<'m> {
-        let normals = self.mesh.triangles[local].map(|vertex| self.mesh.normals[vertex as usize]);
-        let mut caster = Caster::from(self.triangle(origin, local)).with_passes(self.passes).with_normals(normals);
+impl<'a> Piece<'a> {
+    /// The same, borrowed.
+    fn borrowed(&self) -> Piece<'_> {
+        Piece { mesh: Cow::Borrowed(&self.mesh), ..*self }
+    }
+
+    /// What bakes take of it, about an origin.
+    fn into_casting(self, origin: DVec3, alpha_test: Mask<'a>, alpha_blend: Film<'a>) -> CasterMesh<'a> {
+        let (positions, triangles, normals, uvs) = match self.mesh {
+            Cow::Borrowed(mesh) => {
+                let Mesh { positions, triangles, normals, uvs, .. } = mesh;
+                (positions.into(), triangles.into(), normals.into(), uvs.into())
+            }
+            Cow::Owned(mesh) => {
+                (Cow::from(mesh.positions), Cow::from(mesh.triangles), Cow::from(mesh.normals), Cow::from(mesh.uvs))
+            }
+        };
+        let mesh = IndexedMesh::new(origin, positions, triangles, self.object, self.sheet);
+        let mut casting = CasterMesh::from(mesh).with_passes(self.passes).with_normals(normals);
         if self.cover.has_holes() {
-            caster = caster.with_uvs(self.mesh.corner_uvs(local)).with_mask(alpha_test);
+            casting = casting.with_mask(alpha_test);
         }
         if self.cover.blends {
-            caster = caster.with_uvs(self.mesh.corner_uvs(local)).with_film(alpha_blend);
+            casting = casting.with_film(alpha_blend);
         }
-        caster
+        if self.cover.has_holes() || self.cover.blends {
+            casting = casting.with_uvs(uvs);
+        }
+        casting
     }
 }
 
@@ -130,10 +149,11 @@ impl<'a> Soup<'a> {
             .flat_map(|piece: &Piece| (0..piece.mesh.triangles.len()).map(|local| piece.triangle(self.origin, local)))
     }
 
-    /// The same triangles, each with what passes its object, the shading normals of its mesh, and what its cover adds.
-    pub fn casting(&self) -> impl Iterator<Item = Caster<'_>> {
-        let caster = |piece, local| Piece::caster(piece, self.origin, local, &*self.alpha_test, &*self.alpha_blend);
-        self.pieces.iter().flat_map(move |piece| (0..piece.mesh.triangles.len()).map(move |local| caster(piece, local)))
+    /// The same triangles, mesh by mesh, with what passes their objects, the shading normals of their meshes, and what their covers add.
+    pub fn casting(&self) -> impl Iterator<Item = CasterMesh<'_>> {
+        self.pieces
+            .iter()
+            .map(|piece| piece.borrowed().into_casting(self.origin, &*self.alpha_test, &*self.alpha_blend))
     }
 
     /// As [`casting`](Self::casting), for who keeps no soup but the scene's [`alpha_test`] and [`alpha_blend`].
@@ -141,10 +161,12 @@ impl<'a> Soup<'a> {
         self,
         alpha_test: Mask<'m>,
         alpha_blend: Film<'m>,
-    ) -> impl Iterator<Item = Caster<'m>> + use<'a, 'm> {
-        let (origin, pieces) = (self.origin, self.pieces.into_iter());
-        let caster = move |piece: &Piece, local| piece.caster(origin, local, alpha_test, alpha_blend);
-        pieces.flat_map(move |piece| (0..piece.mesh.triangles.len()).map(move |local| caster(&piece, local)))
+    ) -> impl Iterator<Item = CasterMesh<'m>> + use<'a, 'm>
+    where
+        'a: 'm,
+    {
+        let origin = self.origin;
+        self.pieces.into_iter().map(move |piece| piece.into_casting(origin, alpha_test, alpha_blend))
     }
 
     /// The smooth piece of surface that a triangle belongs to; unique together with its object.

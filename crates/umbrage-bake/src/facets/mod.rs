@@ -12,7 +12,7 @@ mod surface;
 
 pub use refinement::Refinement;
 
-use crate::Caster;
+use crate::Casting;
 use crate::masks::Masks;
 use crate::pass1::{BY_WINDING, Pass};
 use budget::Level;
@@ -41,13 +41,13 @@ pub struct BakedFacets {
 /// larger than a few texels. Of facets with equal keys the first triangle's is stored.
 pub fn bake_facets<'a, R: FacetRule>(
     view: &View,
-    casters: impl IntoIterator<Item: Into<Caster<'a>>>,
+    casters: impl IntoIterator<Item: Into<Casting<'a>>>,
     rule: &R,
     cull: Cull,
 ) -> BakedFacets {
     let mut masks = Masks::new(view);
-    let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
-    let bins = Bins::new(view, TexelRect::of_size(view.size()), cull, triangles);
+    let geometry = casters.into_iter().map(|casters| masks.note(casters));
+    let bins = Bins::new(view, TexelRect::of_size(view.size()), cull, geometry);
     let pass = Pass { view, fine: view, rule, masks: &masks, front: BY_WINDING };
     let stored = match (rule.stored(), cull) {
         (Stored::First, Cull::Front) => Stored::BackFace,
@@ -95,7 +95,7 @@ pub fn bake_facets<'a, R: FacetRule>(
 /// When `fine` is not 2, 4 or 8, or `slots` is not a power of two from 2 to 64/`fine`.
 pub fn bake_refined<'a>(
     view: &View,
-    casters: impl IntoIterator<Item: Into<Caster<'a>>>,
+    casters: impl IntoIterator<Item: Into<Casting<'a>>>,
     refinement: &Refinement,
 ) -> BakedFacets {
     let Refinement { fine, slots, .. } = *refinement;
@@ -103,8 +103,8 @@ pub fn bake_refined<'a>(
     assert!(slots > 1 && slots.is_power_of_two() && slots * fine <= 64, "{slots} slots with {fine} samples");
     let view = &view.with_sampling(Sampling::Centre);
     let mut masks = Masks::new(view);
-    let triangles = casters.into_iter().map(|caster| masks.note(caster.into()));
-    let bins = Bins::for_spans(view, TexelRect::of_size(view.size()), Cull::None, triangles);
+    let geometry = casters.into_iter().map(|casters| masks.note(casters));
+    let bins = Bins::for_spans(view, TexelRect::of_size(view.size()), Cull::None, geometry);
     let depths = FacetDepths::of(view);
     let kept = |tile: UVec2, level: Level, scratch: &mut Scratch| {
         let refinement = &refinement.with_tolerance(refinement.tolerance * level.tolerance);

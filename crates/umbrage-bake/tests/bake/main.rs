@@ -1,5 +1,6 @@
 //! Triangles to maps: what each kind of map stores, for every rule, sampling, size and number of threads.
 
+mod casting;
 mod deep;
 mod facets;
 mod hits;

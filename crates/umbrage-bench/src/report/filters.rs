@@ -31,8 +31,8 @@ pub fn look_ups(settings: Settings, side: u32) -> Vec<Row> {
     let (points, view) = (&scene.points, Scene::view(side));
     let receivers = scene.receivers(&view);
     let places = listing::places(&receivers, side);
-    let casters = scene.mesh.casters();
-    let (tiled, of_facets) = (first(&view, &casters).map, facets(&view, &casters).map);
+    let mesh = &scene.mesh;
+    let (tiled, of_facets) = (first(&view, mesh).map, facets(&view, mesh).map);
     let map = Raw::copy_of(&tiled);
     let look_ups = all(&scene, &view);
 

@@ -24,7 +24,6 @@ pub fn whole(settings: Settings) -> Vec<Row> {
 fn of(settings: Settings, name: &str, segments: Segments, side: u32) -> [Row; 6] {
     let scene = Scene::new(segments, settings.picture());
     let (mesh, points, view, light) = (&scene.mesh, &scene.points, Scene::view(side), Scene::disc());
-    let casters = mesh.casters();
     let mut outs = vec![vec![0.0; points.len()]; 5];
     let [closer_out, auto_out, two_out, eight_out, sixteen_out] = outs.as_mut_slice() else { unreachable!("five") };
     let filter = closer(&view);
@@ -32,16 +31,16 @@ fn of(settings: Settings, name: &str, segments: Segments, side: u32) -> [Row; 6]
         settings.rounds(),
         processor_seconds,
         &mut [
-            &mut || ShadowMap { filter, map: first(&view, &casters).map }.fractions(points, KEY, closer_out),
+            &mut || ShadowMap { filter, map: first(&view, mesh).map }.fractions(points, KEY, closer_out),
             &mut || {
-                let map = refined(&view, &casters).map;
+                let map = refined(&view, mesh).map;
                 ShadowMap { filter: DualPlane::default(), map }.fractions(points, KEY, auto_out);
             },
             &mut || Tree::of_two(mesh).one_ray(points, light, two_out),
             &mut || Tree::of_eight(mesh).one_ray(points, light, eight_out),
             &mut || Tree::of_eight(mesh).sixteen_rays(points, light, sixteen_out),
-            &mut || drop(black_box(first(&view, &casters))),
-            &mut || drop(black_box(refined(&view, &casters))),
+            &mut || drop(black_box(first(&view, mesh))),
+            &mut || drop(black_box(refined(&view, mesh))),
         ],
     );
     assert_eq!(mean(&outs[2]), mean(&outs[3]), "both trees hold the same triangles");

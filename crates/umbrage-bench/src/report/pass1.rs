@@ -3,7 +3,7 @@
 use super::rows::{Goal, Row, Settings};
 use crate::peers::memory::clear_and_min;
 use crate::peers::software::Software;
-use crate::raster::{Workload, facets, first, midpoint, refined, second};
+use crate::raster::{Workload, facets, first, first_one_by_one, midpoint, refined, second};
 use crate::scene::Segments;
 use crate::timing::{medians, processor_seconds};
 use std::hint::black_box;
@@ -45,8 +45,10 @@ pub fn raster(settings: Settings, side: u32) -> Vec<Row> {
 }
 
 /// One mesh beside both peers.
-fn beside(settings: Settings, workload: &Workload, goals: &Goals) -> [Row; 3] {
+fn beside(settings: Settings, workload: &Workload, goals: &Goals) -> [Row; 4] {
     let baked = workload.checked();
+    let (view, triangles) = (&workload.view, workload.mesh.one_by_one());
+    assert!(first_one_by_one(view, &triangles).map == baked.map, "a mesh is its triangles");
     let layers = workload.limit_layers(&baked);
     let mut software = Software::new(&workload.view);
     software.draw(&workload.mesh);
@@ -62,6 +64,7 @@ fn beside(settings: Settings, workload: &Workload, goals: &Goals) -> [Row; 3] {
                 clear_and_min(&mut buffer, layers);
             },
             &mut || drop(black_box(workload.binned())),
+            &mut || drop(black_box(first_one_by_one(view, &triangles))),
         ],
     );
     let row = |part: &str, ours: f64, peer: String, theirs: f64, goal| Row {
@@ -83,6 +86,7 @@ fn beside(settings: Settings, workload: &Workload, goals: &Goals) -> [Row; 3] {
             goals.limit,
         ),
         row(", set up and binned alone", taken[3], "all of it".into(), taken[0], Goal::Free),
+        row("", taken[0], "its triangles one by one".into(), taken[4], Goal::Free),
     ]
 }
 
@@ -90,20 +94,20 @@ fn beside(settings: Settings, workload: &Workload, goals: &Goals) -> [Row; 3] {
 pub fn rules(settings: Settings, side: u32) -> Vec<Row> {
     let segments = if settings.quick { Segments::SMALL } else { Segments::MEDIUM };
     let knot = Workload::knot("knot", segments, side);
-    let (view, casters) = (&knot.view, &knot.casters);
-    let kept = [facets(view, casters).map.allocated(), refined(view, casters).map.allocated()];
-    let raw = Raw::copy_of(&first(view, casters).map).allocated();
-    let same = Raw::copy_of(&facets(view, casters).map) == Raw::copy_of(&first(view, casters).map);
+    let (view, mesh) = (&knot.view, &knot.mesh);
+    let kept = [facets(view, mesh).map.allocated(), refined(view, mesh).map.allocated()];
+    let raw = Raw::copy_of(&first(view, mesh).map).allocated();
+    let same = Raw::copy_of(&facets(view, mesh).map) == Raw::copy_of(&first(view, mesh).map);
     assert!(same, "a map of facets has the depths of the nearest surface");
     let taken = medians(
         settings.rounds(),
         processor_seconds,
         &mut [
-            &mut || drop(black_box(first(view, casters))),
-            &mut || drop(black_box(second(view, casters))),
-            &mut || drop(black_box(midpoint(view, casters))),
-            &mut || drop(black_box(facets(view, casters))),
-            &mut || drop(black_box(refined(view, casters))),
+            &mut || drop(black_box(first(view, mesh))),
+            &mut || drop(black_box(second(view, mesh))),
+            &mut || drop(black_box(midpoint(view, mesh))),
+            &mut || drop(black_box(facets(view, mesh))),
+            &mut || drop(black_box(refined(view, mesh))),
         ],
     );
     let row = |what: &str, ours: f64, peer: &str, theirs: f64, goal| Row {

@@ -17,9 +17,9 @@ const CHUNK: usize = 4096;
 pub fn two(settings: Settings) -> (f64, Vec<Row>) {
     let (segments, side) = if settings.quick { (Segments::SMALL, 256) } else { (Segments::MEDIUM, 4096) };
     let scene = Scene::new(segments, settings.picture());
-    let (points, view, casters) = (&scene.points, Scene::view(side), scene.mesh.casters());
-    let shadow = ShadowMap { filter: closer(&view), map: first(&view, &casters).map };
-    let bake = || drop(black_box(first(&view, &casters)));
+    let (points, view, mesh) = (&scene.points, Scene::view(side), &scene.mesh);
+    let shadow = ShadowMap { filter: closer(&view), map: first(&view, mesh).map };
+    let bake = || drop(black_box(first(&view, mesh)));
     let look = || {
         let mut out = vec![0.0; points.len()];
         let chunks = points.par_chunks(CHUNK).zip(out.par_chunks_mut(CHUNK));

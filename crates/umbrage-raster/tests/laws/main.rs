@@ -1,6 +1,7 @@
 //! What the rasteriser promises, checked against naive exact arithmetic and ray casting.
 
 mod depth;
+mod indexed;
 mod input;
 mod meshes;
 mod near;
