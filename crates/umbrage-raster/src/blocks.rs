@@ -1,6 +1,6 @@
 //! Triangles set up in blocks, by several threads.
 
-use crate::job::{Job, Jobs};
+use crate::job::{Job, Jobs, Scratch};
 use crate::mesh::Geometry;
 use crate::piece::{Block, number};
 use crate::setup::Setup;
@@ -15,6 +15,7 @@ pub(crate) fn fill<'a>(blocks: &mut Vec<Block>, setup: &Setup, geometry: impl In
     let mut jobs = Jobs::of(geometry.into_iter().fuse());
     let most = (rayon::current_num_threads() - 1) * WAITING;
     let (finished, results) = mpsc::channel();
+    let scratch = Scratch::default();
     let (mut done, mut waiting, mut count) = (Vec::new(), 0, 0);
     rayon::in_place_scope(|scope| {
         loop {
@@ -32,13 +33,13 @@ pub(crate) fn fill<'a>(blocks: &mut Vec<Block>, setup: &Setup, geometry: impl In
             }
             // What fits in one block is not worth waking a thread.
             if last || waiting == most {
-                job.run(setup, number(first, 0), &mut made);
+                job.run(setup, &scratch, number(first, 0), &mut made);
                 put(blocks, first, made);
                 done.push(job);
             } else {
-                let finished = finished.clone();
+                let (finished, scratch) = (finished.clone(), &scratch);
                 scope.spawn(move |_| {
-                    job.run(setup, number(first, 0), &mut made);
+                    job.run(setup, scratch, number(first, 0), &mut made);
                     // The receiver outlives the scope.
                     let _ = finished.send((first, made, job));
                 });

@@ -7,6 +7,7 @@ use crate::piece::{Block, SIZE};
 use crate::setup::Setup;
 use glam::Vec3;
 use std::ops::ControlFlow;
+use std::sync::{Mutex, PoisonError};
 use umbrage_plane::vectorized;
 
 /// Blocks of a mesh that are set up together: the more triangles, the more of their corners are shared, and the more memory they take.
@@ -18,8 +19,20 @@ pub(crate) struct Job<'a> {
     mesh: Option<IndexedMesh<'a>>,
     /// Those of one block; less than fill it only where they are the last.
     triangles: Vec<Triangle>,
-    /// The corners that triangles of the mesh share.
-    corners: Vec<Corner>,
+}
+
+/// The memory for corners that triangles of a mesh share: as much as threads work in, which is less than there are jobs.
+#[derive(Default)]
+pub(crate) struct Scratch(Mutex<Vec<Vec<Corner>>>);
+
+impl Scratch {
+    fn take(&self) -> Vec<Corner> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default()
+    }
+
+    fn give(&self, corners: Vec<Corner>) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(corners);
+    }
 }
 
 impl Job<'_> {
@@ -34,17 +47,18 @@ impl Job<'_> {
     }
 
     /// Sets them up in place of those that the blocks hold; `first` is the index of the first of them.
-    pub fn run(&mut self, setup: &Setup, first: u32, blocks: &mut [Block]) {
-        let Self { mesh, triangles, corners } = self;
+    pub fn run(&mut self, setup: &Setup, scratch: &Scratch, first: u32, blocks: &mut [Block]) {
+        let Self { mesh, triangles } = self;
         let Some(mesh) = mesh else {
             let [block] = blocks else { unreachable!("they are those of one block") };
             return setup.fill(block, first, triangles.len(), |making| vectorized!(_ => making.add_all(triangles)));
         };
         // Where corners are mostly a triangle's own, or lie far apart, each triangle computes its own.
         let near = |(_, positions): &(u32, &[Vec3])| positions.len() <= 2 * mesh.len() && by_eights(&setup.view);
+        let mut corners = scratch.take();
         let shared = mesh.positions().filter(near).map(|(first, positions)| {
-            vectorized!(_ => project_all(&setup.view, mesh.origin(), positions, corners));
-            Shared { first, corners }
+            vectorized!(_ => project_all(&setup.view, mesh.origin(), positions, &mut corners));
+            Shared { first, corners: &corners }
         });
         for (block, start) in blocks.iter_mut().zip((0..).step_by(SIZE)) {
             let range = start..start + SIZE;
@@ -58,6 +72,7 @@ impl Job<'_> {
                 }
             });
         }
+        scratch.give(corners);
     }
 }
 
