@@ -90,7 +90,7 @@ pub struct BakedDeep {
 }
 
 /// Pass 1 of deep maps: a texel's transmittance is the mean over its samples and over the moments of an exposure of what all surfaces
-/// before a depth let through together ([`Caster::passes`], [`Caster::film`]).
+/// before a depth let through together ([`Caster::passes`](crate::Caster::passes), [`Caster::film`](crate::Caster::film)).
 ///
 /// `moments` are the triangles at evenly spread times, one of them for what is at rest; none gives an empty map. What is nearer than the near plane stands at it. The result
 /// does not depend on the number of threads. Maps too large for the samples, which are one grid of at most 32,768 per side, get as many as fit.

@@ -78,7 +78,7 @@ impl Bins {
         lists::sort(&mut self.lists, &self.setup, &self.blocks);
     }
 
-    /// Number of tiles across and down: the view's size over [`BIN`], rounded up.
+    /// Number of tiles across and down: the view's size over [`BIN`](crate::BIN), rounded up.
     pub fn tiles(&self) -> UVec2 {
         self.setup.tiles()
     }

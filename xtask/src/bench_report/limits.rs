@@ -153,6 +153,7 @@ mod tests {
             row("pass 1", "1-texel-grid at 1024²", 80.0, ("euc", 40.0), Goal::Faster(8.0)),
             row("pass 1", "1-texel-grid, set up and binned alone at 4096²", 10.0, ("all of it", 80.0), Goal::Free),
             row("pass 1", "1-texel-grid, set up and binned alone at 1024²", 60.0, ("all of it", 80.0), Goal::Free),
+            row("pass 1", "1-texel-grid at 1024²", 80.0, ("its triangles one by one", 92.0), Goal::Free),
         ];
         let text = line(&rows[0], &rows).expect("a missed goal");
         assert!(
@@ -160,6 +161,7 @@ mod tests {
             "{text}"
         );
         assert!(text.contains("takes 75 %, before"), "{text}");
+        assert!(text.ends_with("one by one they take 15 % more."), "{text}");
         assert_eq!(line(&rows[1], &rows), None, "a row without a goal");
     }
 
