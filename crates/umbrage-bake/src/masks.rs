@@ -80,7 +80,7 @@ impl<'a> Masks<'a> {
         }
     }
 
-    /// Takes a caster with a mask or a film, the so manieth that was given.
+    /// Keeps a caster that has a mask or a film; `index` is the number of casters before it.
     #[cold]
     fn add(&mut self, index: usize, caster: &Caster<'a>) {
         self.index.resize(index, UNMASKED);

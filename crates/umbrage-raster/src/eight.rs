@@ -84,7 +84,7 @@ pub(crate) fn project_all(view: &View, origin: DVec3, positions: &[Vec3], corner
     }
 }
 
-/// Compiled once for each projection, as are the other functions that are told whether the view is `PERSPECTIVE`: no loop then branches on it.
+/// `PERSPECTIVE` must say whether the view is one, here and below: each projection is compiled on its own, so that no loop branches on it.
 #[inline(always)]
 fn project_eights<const PERSPECTIVE: bool>(view: &View, origin: DVec3, positions: &[Vec3], corners: &mut Vec<Corner>) {
     if view.is_perspective() != PERSPECTIVE {

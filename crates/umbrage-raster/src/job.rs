@@ -17,7 +17,7 @@ const TOGETHER: usize = 8;
 #[derive(Default)]
 pub(crate) struct Job<'a> {
     mesh: Option<IndexedMesh<'a>>,
-    /// Those of one block; less than fill it only where they are the last.
+    /// Those of one block: [`SIZE`] of them, or fewer where they are the last.
     triangles: Vec<Triangle>,
 }
 

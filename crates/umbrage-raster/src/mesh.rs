@@ -39,7 +39,7 @@ struct Whole<'a> {
 }
 
 impl Whole<'_> {
-    /// A corner in world space; NaN where there is no such position.
+    /// The position of that index, in world space; NaN where the mesh has none.
     #[inline(always)]
     fn corner(&self, index: u32) -> DVec3 {
         self.positions.get(index as usize).map_or(DVec3::NAN, |position| self.origin + position.as_dvec3())

@@ -1,7 +1,7 @@
 //! Meshes with indices: the same bits as their triangles one by one, however corners are shared.
 
 use crate::oracle::Camera;
-use glam::{DVec3, UVec2, Vec3};
+use glam::{DVec3, IVec2, UVec2, Vec3};
 use umbrage_plane::{Kind, Sampling, TexelRect, View};
 use umbrage_raster::{Bins, Coverage, Cull, Geometry, IndexedMesh, Triangle};
 
@@ -178,4 +178,26 @@ fn bins_are_refilled_with_meshes_and_triangles_in_turn() {
             }
         });
     }
+}
+
+#[test]
+fn what_is_gathered_is_the_same_from_the_lists_of_several_threads() {
+    // Blocks enough for three threads to make lists of their own.
+    let (positions, triangles) = sheet(120, 140, false);
+    let mesh = IndexedMesh::new(DVec3::ZERO, positions, triangles, 1, false);
+    let view = views()[0];
+    let made = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| Bins::for_spans(&view, TexelRect::of_size(view.size()), Cull::None, [mesh.clone()]))
+    };
+    let (one, several) = (made(1), made(3));
+    // A tile, a part of one, parts of four, and all of the map, in 1/256 texel.
+    for (from, to) in [(32, 64), (40, 47), (30, 70), (0, 131)] {
+        let region = TexelRect::new(IVec2::splat(from * 256), IVec2::splat(to * 256));
+        let (wanted, found) = (one.gathered(region), several.gathered(region));
+        assert!(wanted.len() > 20 && found.len() == wanted.len(), "{region:?}: {} facets", wanted.len());
+        assert!((0..wanted.len() as u32).all(|number| found.facet(number) == wanted.facet(number)), "{region:?}");
+    }
+    assert_eq!(several.reaching(UVec2::ONE), one.reaching(UVec2::ONE));
+    assert_eq!(several.is_empty_tile(UVec2::ONE), one.is_empty_tile(UVec2::ONE));
 }
